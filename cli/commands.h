@@ -1,0 +1,19 @@
+// cli/commands.h -- the subcommands of `regather`, one file each. Each function adds its subcommand to `app`; the
+// callback does the work and throws trace::UsageError (exit 2), trace::DataError (exit 3) or std::exception (exit 1).
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace regather::cli {
+
+void add_scenes(CLI::App& app);
+void add_capture(CLI::App& app);
+void add_replay(CLI::App& app);
+void add_cachesim(CLI::App& app);
+void add_chart(CLI::App& app);
+void add_run(CLI::App& app);
+void add_info(CLI::App& app);
+
+}  // namespace regather::cli

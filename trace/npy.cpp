@@ -1,0 +1,231 @@
+#include "trace/npy.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <bit>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <string_view>
+#include <utility>
+
+namespace regather::trace {
+
+static_assert(std::endian::native == std::endian::little, "columns are mapped as they are");
+
+namespace {
+
+constexpr std::size_t header_bytes = 256;  // of our own files; readers take any length
+constexpr std::string_view magic{"\x93NUMPY\x01\x00", 8};
+
+std::string header_text(const ColumnType& type, std::uint64_t rows) {
+    const std::string shape = type.inner_shape.empty() ? fmt::format("({},)", rows)
+                                                       : fmt::format("({}, {})", rows, type.inner_shape);
+    return fmt::format("{{'descr': {}, 'fortran_order': False, 'shape': {}, }}", type.descr, shape);
+}
+
+std::string header_block(const ColumnType& type, std::uint64_t rows) {
+    std::string block(magic);
+    const std::size_t text_bytes = header_bytes - magic.size() - 2;
+    block.push_back(static_cast<char>(text_bytes & 0xff));
+    block.push_back(static_cast<char>(text_bytes >> 8));
+    block += header_text(type, rows);
+    block.resize(header_bytes - 1, ' ');
+    block.push_back('\n');
+    return block;
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& found, const std::string& expected) {
+    throw DataError(fmt::format("{}: found {}, expected {}", path.string(), found, expected));
+}
+
+/// The value of a key in the header's dictionary, as text without blanks; empty when the key is missing.
+std::string value_of(std::string_view header, std::string_view key) {
+    const std::size_t at = header.find(fmt::format("'{}'", key));
+    if (at == std::string_view::npos) return {};
+    std::size_t i = header.find(':', at);
+    if (i == std::string_view::npos) return {};
+    std::string value;
+    int depth = 0;
+    for (++i; i < header.size(); ++i) {
+        const char c = header[i];
+        if (c == '(' || c == '[') ++depth;
+        if (c == ')' || c == ']') --depth;
+        if ((c == ',' && depth == 0) || (c == '}' && depth <= 0)) break;
+        if (c != ' ') value.push_back(c);
+    }
+    return value;
+}
+
+std::string without_blanks(std::string text) {
+    std::erase(text, ' ');
+    return text;
+}
+
+}  // namespace
+
+template <>
+const ColumnType& column_type<std::uint8_t>() {
+    static const ColumnType type{"'|u1'", "", 1, "uint8"};
+    return type;
+}
+template <>
+const ColumnType& column_type<std::uint32_t>() {
+    static const ColumnType type{"'<u4'", "", 4, "uint32"};
+    return type;
+}
+template <>
+const ColumnType& column_type<std::uint64_t>() {
+    static const ColumnType type{"'<u8'", "", 8, "uint64"};
+    return type;
+}
+template <>
+const ColumnType& column_type<float>() {
+    static const ColumnType type{"'<f4'", "", 4, "float32"};
+    return type;
+}
+template <>
+const ColumnType& column_type<Vec3>() {
+    static const ColumnType type{"'<f4'", "3", 12, "float32 x 3"};
+    return type;
+}
+template <>
+const ColumnType& column_type<Photon>() {
+    static const ColumnType type{
+        "[('position', '<f4', (3,)), ('power', '|u1', (4,)), ('theta', '|u1'), ('phi', '|u1'), ('flags', '<u2')]", "",
+        20, "20-byte photon record"};
+    return type;
+}
+
+struct ColumnWriter::State {
+    std::filesystem::path path;
+    ColumnType type;
+    std::FILE* file = nullptr;
+    XXH3_state_t* hash = nullptr;
+    std::uint64_t bytes = 0;
+
+    State(std::filesystem::path p, const ColumnType& t) : path(std::move(p)), type(t) {}
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State() {
+        if (file) std::fclose(file);
+        XXH3_freeState(hash);
+    }
+    void write(const void* data, std::size_t size) {
+        if (std::fwrite(data, 1, size, file) != size)
+            throw DataError(fmt::format("{}: cannot write: {}", path.string(), std::strerror(errno)));
+    }
+};
+
+ColumnWriter::ColumnWriter(std::filesystem::path path, const ColumnType& type)
+    : state_(std::make_unique<State>(std::move(path), type)) {
+    state_->file = std::fopen(state_->path.c_str(), "wb");
+    if (!state_->file)
+        throw DataError(fmt::format("{}: cannot create: {}", state_->path.string(), std::strerror(errno)));
+    std::setvbuf(state_->file, nullptr, _IOFBF, 1 << 20);
+    state_->hash = XXH3_createState();
+    XXH3_64bits_reset(state_->hash);
+    const std::string block = header_block(type, 0);
+    state_->write(block.data(), block.size());
+}
+ColumnWriter::~ColumnWriter() = default;
+ColumnWriter::ColumnWriter(ColumnWriter&&) noexcept = default;
+
+void ColumnWriter::append_bytes(std::span<const std::byte> bytes) {
+    state_->write(bytes.data(), bytes.size());
+    XXH3_64bits_update(state_->hash, bytes.data(), bytes.size());
+    state_->bytes += bytes.size();
+}
+
+ColumnDigest ColumnWriter::finish() {
+    State& s = *state_;
+    const ColumnDigest digest{s.bytes / s.type.row_bytes, XXH3_64bits_digest(s.hash)};
+    const std::string block = header_block(s.type, digest.rows);
+    if (std::fseek(s.file, 0, SEEK_SET) != 0)
+        throw DataError(fmt::format("{}: cannot write: {}", s.path.string(), std::strerror(errno)));
+    s.write(block.data(), block.size());
+    std::FILE* file = std::exchange(s.file, nullptr);
+    if (std::fclose(file) != 0)
+        throw DataError(fmt::format("{}: cannot write: {}", s.path.string(), std::strerror(errno)));
+    return digest;
+}
+
+MappedColumn::MappedColumn(const std::filesystem::path& path, const ColumnType& type) : row_bytes_(type.row_bytes) {
+    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (fd < 0) refuse(path, std::strerror(errno), fmt::format("a .npy column of {}", type.readable));
+    struct stat info {};
+    if (::fstat(fd, &info) != 0 || !S_ISREG(info.st_mode) || info.st_size < 10) {
+        ::close(fd);
+        refuse(path, fmt::format("{} bytes", info.st_size), "a .npy file");
+    }
+    map_bytes_ = static_cast<std::size_t>(info.st_size);
+    map_ = ::mmap(nullptr, map_bytes_, PROT_READ, MAP_SHARED, fd, 0);
+    ::close(fd);
+    if (map_ == MAP_FAILED) {
+        map_ = nullptr;
+        refuse(path, fmt::format("a file that cannot be mapped ({})", std::strerror(errno)), "a .npy file");
+    }
+    const char* bytes = static_cast<const char*>(map_);
+    try {
+        if (std::string_view(bytes, 6) != magic.substr(0, 6)) refuse(path, "no NumPy magic", "a .npy file");
+        const int major = static_cast<unsigned char>(bytes[6]);
+        if (major < 1 || major > 3) refuse(path, fmt::format(".npy version {}", major), "version 1 to 3");
+        const std::size_t prefix = major == 1 ? 10 : 12;
+        std::size_t text_bytes = 0;
+        for (std::size_t i = prefix; i-- > 8;) text_bytes = text_bytes << 8 | static_cast<unsigned char>(bytes[i]);
+        if (prefix + text_bytes > map_bytes_) refuse(path, "a header that ends early", "a whole .npy header");
+        const std::string_view header(bytes + prefix, text_bytes);
+
+        const std::string descr = value_of(header, "descr");
+        if (descr != without_blanks(type.descr)) {
+            std::string foreign = without_blanks(type.descr);
+            for (char& c : foreign)
+                if (c == '<') c = '>';
+            refuse(path, descr == foreign ? fmt::format("big-endian type {}", descr) : fmt::format("type {}", descr),
+                   fmt::format("{} ({}, little-endian)", type.descr, type.readable));
+        }
+        if (value_of(header, "fortran_order") != "False") refuse(path, "Fortran order", "C order");
+        const std::string shape = value_of(header, "shape");
+        const char* first = shape.data() + 1;
+        const char* last = shape.data() + shape.size();
+        const auto [end, error] = shape.empty() ? std::from_chars_result{nullptr, std::errc::invalid_argument}
+                                                : std::from_chars(first, last, rows_);
+        const std::string tail = error == std::errc{} ? std::string(end, last) : "";
+        const std::string expected_tail = type.inner_shape.empty() ? ",)" : fmt::format(",{})", type.inner_shape);
+        if (error != std::errc{} || tail != expected_tail)
+            refuse(path, fmt::format("shape {}", shape),
+                   type.inner_shape.empty() ? "shape (rows,)" : fmt::format("shape (rows, {})", type.inner_shape));
+        const std::size_t body = map_bytes_ - prefix - text_bytes;
+        if (rows_ > body / type.row_bytes || rows_ * type.row_bytes != body)
+            refuse(path, fmt::format("{} bytes of rows", body),
+                   fmt::format("{} rows x {} bytes", rows_, type.row_bytes));
+        data_ = reinterpret_cast<const std::byte*>(bytes) + prefix + text_bytes;
+    } catch (...) {
+        ::munmap(map_, map_bytes_);
+        throw;
+    }
+}
+
+MappedColumn::~MappedColumn() {
+    if (map_) ::munmap(map_, map_bytes_);
+}
+MappedColumn::MappedColumn(MappedColumn&& other) noexcept { *this = std::move(other); }
+MappedColumn& MappedColumn::operator=(MappedColumn&& other) noexcept {
+    std::swap(map_, other.map_);
+    std::swap(map_bytes_, other.map_bytes_);
+    std::swap(data_, other.data_);
+    std::swap(rows_, other.rows_);
+    std::swap(row_bytes_, other.row_bytes_);
+    return *this;
+}
+
+std::uint64_t MappedColumn::checksum() const { return XXH3_64bits(data_, rows_ * row_bytes_); }
+
+void MappedColumn::expect_random_access() const { ::madvise(map_, map_bytes_, MADV_RANDOM); }
+
+}  // namespace regather::trace

@@ -1,0 +1,87 @@
+// trace/npy.h -- columns as NumPy .npy files (format 1.0, little-endian, C order): written as a stream, read in place.
+// Format: numpy.lib.format, NEP 1. Which columns a trace has: trace/folder.h and docs/trace_format.md.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "trace/error.h"
+#include "trace/photon.h"
+#include "trace/vec.h"
+
+namespace regather::trace {
+
+/// What a row of a column is.
+struct ColumnType {
+    std::string descr;        ///< As in the .npy header: "'<f4'", or a list of fields.
+    std::string inner_shape;  ///< "" for one value a row, "3" for three.
+    std::size_t row_bytes;
+    std::string readable;     ///< For people: "float32 x 3".
+};
+
+template <class T>
+const ColumnType& column_type();  ///< For uint8, uint32, uint64, float, Vec3 and Photon.
+
+/// What was written: rows, and XXH3-64 of the rows' bytes (without the header).
+struct ColumnDigest {
+    std::uint64_t rows = 0;
+    std::uint64_t checksum = 0;
+    friend bool operator==(const ColumnDigest&, const ColumnDigest&) = default;
+};
+
+/// Appends rows; the header is completed by finish(). A file that was never finished has a row count of 0 and
+/// trailing bytes, which MappedColumn refuses. Throws DataError when the disk is full or the path cannot be written.
+class ColumnWriter {
+public:
+    ColumnWriter(std::filesystem::path path, const ColumnType& type);
+    ~ColumnWriter();
+    ColumnWriter(ColumnWriter&&) noexcept;
+
+    template <class T>
+    void append(std::span<const T> rows) { append_bytes(std::as_bytes(rows)); }
+    void append_bytes(std::span<const std::byte> bytes);
+    ColumnDigest finish();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// Maps a finished column read-only. Throws DataError (path, found, expected) for a missing file, no or a foreign
+/// header, a wrong type or shape, foreign byte order, Fortran order, and bytes missing or left over.
+class MappedColumn {
+public:
+    MappedColumn(const std::filesystem::path& path, const ColumnType& type);
+    ~MappedColumn();
+    MappedColumn(MappedColumn&&) noexcept;
+    MappedColumn& operator=(MappedColumn&&) noexcept;
+
+    std::uint64_t size() const { return rows_; }
+    std::uint64_t checksum() const;  ///< XXH3-64 of the rows' bytes; reads them all.
+    template <class T>
+    std::span<const T> rows() const { return {reinterpret_cast<const T*>(data_), rows_}; }
+    /// Tells the kernel that the rows are read in no order (madvise).
+    void expect_random_access() const;
+
+private:
+    void* map_ = nullptr;
+    std::size_t map_bytes_ = 0;
+    const std::byte* data_ = nullptr;
+    std::uint64_t rows_ = 0;
+    std::size_t row_bytes_ = 0;
+};
+
+/// A whole small column at once.
+template <class T>
+ColumnDigest write_column(const std::filesystem::path& path, std::span<const T> rows) {
+    ColumnWriter writer(path, column_type<T>());
+    writer.append(rows);
+    return writer.finish();
+}
+
+}  // namespace regather::trace
