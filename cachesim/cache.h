@@ -23,8 +23,11 @@ struct CacheConfig {
     std::uint64_t sets() const { return ways == fully_associative ? 1 : size_bytes / line_bytes / ways; }
 };
 
-/// Throws trace::UsageError that names the field, what was found and what was expected: line_bytes and the set
-/// count are powers of two, size_bytes = sets x ways x line_bytes.
+inline constexpr std::uint64_t max_lines = std::uint64_t{1}
+                                           << 28;  ///< In one cache: its tags fit into memory.
+
+/// Throws trace::UsageError that names the field, what was found and what was expected: line_bytes and the
+/// set count are powers of two, size_bytes = sets x ways x line_bytes, at most max_lines lines.
 void check(const CacheConfig& config);
 
 struct CacheStats {
@@ -43,6 +46,8 @@ public:
 
     /// In this order, one after the other.
     void access(std::span<const Line> lines, trace::Region region, Access kind = Access::read);
+    /// The same with a kind for each line; `kinds` is as long as `lines`.
+    void access(std::span<const Line> lines, std::span<const Access> kinds, trace::Region region);
     /// Evicts everything, so that dirty lines are counted as written back.
     void flush();
 

@@ -10,6 +10,7 @@ namespace regather::cli {
 
 void add_scenes(CLI::App& app);
 void add_capture(CLI::App& app);
+void add_walk(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_cachesim(CLI::App& app);
 void add_chart(CLI::App& app);

@@ -52,6 +52,7 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<RectangleLight> lights;
     Camera camera;
+    std::uint64_t degenerate_faces_dropped = 0;  ///< Faces of mesh files without area, left out.
 
     Bounds3 bounds() const { return trace::bounds_of(vertices); }
 };

@@ -1,0 +1,24 @@
+// cachesim/distinct.h -- counts different lines: times the line size this is the compulsory traffic, which no
+// order of the same accesses can go below. A bitmap for low line numbers, a hash set above.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <unordered_set>
+#include <vector>
+
+#include "cachesim/cache.h"
+
+namespace regather::cachesim {
+
+class DistinctLines {
+public:
+    void add(std::span<const Line> lines);
+    std::uint64_t count() const { return low_count_ + high_.size(); }
+
+private:
+    std::vector<std::uint64_t> low_;  // one bit a line, as long as the largest low line needs
+    std::uint64_t low_count_ = 0;
+    std::unordered_set<std::uint64_t> high_;
+};
+
+}  // namespace regather::cachesim

@@ -1,0 +1,83 @@
+#include "capture/image.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "trace/error.h"
+
+namespace regather::capture {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class Value>
+void write(const fs::path& path, const Image& image, const std::vector<Value>& values, OIIO::TypeDesc type,
+           const char* color_space) {
+    fs::path partial = path.parent_path() / fmt::format("partial-{}", path.filename().string());
+    const auto fail = [&](const std::string& what) {
+        fs::remove(partial);
+        throw trace::DataError(fmt::format("{}: cannot write: {}", path.string(), what));
+    };
+    const auto output = OIIO::ImageOutput::create(path.string());
+    if (!output) fail(OIIO::geterror());
+    OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), 3, type);
+    spec.attribute("oiio:ColorSpace", color_space);
+    spec.attribute("compression", "zip");
+    if (!output->open(partial.string(), spec)) fail(output->geterror());
+    if (!output->write_image(type, values.data())) fail(output->geterror());
+    if (!output->close()) fail(output->geterror());
+    std::error_code error;
+    fs::rename(partial, path, error);
+    if (error) fail(error.message());
+}
+
+float to_srgb(float linear) {
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+
+}  // namespace
+
+void write_exr(const fs::path& path, const Image& image) {
+    std::vector<float> values;
+    values.reserve(3 * image.pixels.size());
+    for (trace::Vec3 p : image.pixels)
+        for (int c = 0; c < 3; ++c) values.push_back(p[c]);
+    write(path, image, values, OIIO::TypeDesc::FLOAT, "Linear");
+}
+
+void write_png(const fs::path& path, const Image& image, float exposure) {
+    std::vector<std::uint8_t> values;
+    values.reserve(3 * image.pixels.size());
+    for (trace::Vec3 p : image.pixels)
+        for (int c = 0; c < 3; ++c) {
+            const float toned = 1 - std::exp(-std::max(0.0f, p[c] * exposure));
+            values.push_back(static_cast<std::uint8_t>(std::clamp(to_srgb(toned) * 255 + 0.5f, 0.0f, 255.0f)));
+        }
+    write(path, image, values, OIIO::TypeDesc::UINT8, "sRGB");
+}
+
+float middle_exposure(const Image& image) {
+    double sum = 0;
+    for (trace::Vec3 p : image.pixels) sum += 0.2126 * p.x + 0.7152 * p.y + 0.0722 * p.z;
+    const double mean = image.pixels.empty() ? 0 : sum / static_cast<double>(image.pixels.size());
+    return mean > 0 ? static_cast<float>(0.2876820724517809 / mean) : 1.0f;  // 1 - exp(-x) = 0.25
+}
+
+Image read_image(const fs::path& path) {
+    const auto input = OIIO::ImageInput::open(path.string());
+    if (!input) throw trace::DataError(fmt::format("{}: {}", path.string(), OIIO::geterror()));
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.nchannels < 3)
+        throw trace::DataError(fmt::format("{}: found {} channels, expected 3", path.string(), spec.nchannels));
+    Image image{static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), {}};
+    image.pixels.resize(std::size_t{image.width} * image.height);
+    if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, image.pixels.data()))
+        throw trace::DataError(fmt::format("{}: {}", path.string(), input->geterror()));
+    return image;
+}
+
+}  // namespace regather::capture

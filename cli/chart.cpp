@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "results/chart.h"
+#include "results/csv.h"
+#include "trace/error.h"
+
+namespace regather::cli {
+namespace {
+
+struct Request {
+    std::vector<std::string> csv, kinds;
+    std::string folder, cache;
+    std::uint64_t tile = 16, bins = 16;
+    bool force = false;
+};
+
+void refuse_to_overwrite(const Request& request) {
+    std::vector<std::string> kinds = request.kinds;
+    if (kinds.empty())
+        for (const auto& kind : results::chart_kinds()) kinds.emplace_back(kind.name);
+    for (const std::string& kind : kinds)
+        for (const char* ending : {".svg", ".png"})
+            if (const auto file = std::filesystem::path(request.folder) / (kind + ending);
+                std::filesystem::exists(file))
+                throw trace::UsageError(fmt::format("{} exists; --force replaces it", file.string()));
+}
+
+void run(const Request& request) {
+    results::ChartOptions options;
+    options.tile = request.tile;
+    options.bins = request.bins;
+    if (!request.cache.empty()) options.cache = results::parse_geometry(request.cache);
+    for (const std::string& kind : request.kinds) results::chart_kind(kind);
+    if (!request.force) refuse_to_overwrite(request);
+
+    std::vector<results::Row> rows;
+    for (const std::string& file : request.csv) {
+        const auto more = results::read_csv(file);
+        rows.insert(rows.end(), more.begin(), more.end());
+    }
+    bool any = false;
+    std::string skipped;
+    for (const auto& drawn : results::write_charts(request.folder, rows, request.kinds, options)) {
+        for (const auto& file : drawn.files) fmt::print("{}\n", file.string());
+        any |= !drawn.files.empty();
+        if (drawn.skipped.empty()) continue;
+        const std::string line = fmt::format("{}: not drawn: {}", drawn.kind, drawn.skipped);
+        fmt::print(stderr, "{}\n", line);
+        if (skipped.empty()) skipped = line;
+    }
+    // What was asked for by name must be there; of "every kind that applies" at least one.
+    if (!skipped.empty() && (!any || !request.kinds.empty())) throw trace::DataError(skipped);
+}
+
+std::string footer() {
+    std::string out = "Kinds:\n";
+    for (const auto& kind : results::chart_kinds())
+        out += fmt::format("  {:<18}{}; needs {}\n", kind.name, kind.title, kind.needs);
+    return out +
+           "\nExamples:\n"
+           "  regather chart runs/room/results.csv -o runs/room/charts\n"
+           "  regather chart mine.csv -o charts --kind traffic-by-tile --cache 64K:64:full --force\n";
+}
+
+}  // namespace
+
+void add_chart(CLI::App& app) {
+    auto request = std::make_shared<Request>();
+    CLI::App* chart = app.add_subcommand("chart", "Draws charts (SVG and PNG) from CSV rows");
+    chart->add_option("CSV", request->csv, "Files of rows, taken together")->required();
+    chart->add_option("-o,--output", request->folder, "Folder for the charts, made when missing")->required();
+    chart->add_option("--kind", request->kinds, "Which charts; without it, each that the rows allow")
+        ->delimiter(',');
+    chart->add_option("--cache", request->cache,
+                      "SIZE:LINE:WAYS of the rows to draw, as 128K:128:8; without it, the commonest");
+    chart->add_option("--tile", request->tile, "Tile edge [pixels] where it is not the axis")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    chart->add_option("--bins", request->bins, "Direction bins (n of n x n) where they are not the axis")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    chart->add_flag("--force", request->force, "Replace charts that exist");
+    chart->footer(footer());
+    chart->callback([request] { run(*request); });
+}
+
+}  // namespace regather::cli

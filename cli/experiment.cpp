@@ -1,0 +1,111 @@
+#include "cli/experiment.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cli/keys.h"
+#include "cli/measurement.h"
+#include "cli/size.h"
+#include "trace/error.h"
+
+namespace regather::cli {
+namespace {
+
+using nlohmann::json;
+
+/// Runs `make`, whose usage errors are this file's bad data.
+template <class Make>
+auto at(const Object& object, std::string_view key, const Make& make) {
+    try {
+        return make();
+    } catch (const trace::UsageError& error) {
+        throw trace::DataError(fmt::format("{}: {}: {}", object.file(), object.place(key), error.what()));
+    }
+}
+
+std::vector<cachesim::CacheConfig> parse_caches(const Object& owner) {
+    static constexpr std::array<std::string_view, 3> keys{"size", "line", "ways"};
+    std::vector<cachesim::CacheConfig> caches;
+    const json& list = owner.array("caches");
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const Object entry(list[i], keys, owner.file(), owner.place(fmt::format("caches[{}]", i)));
+        for (const std::string& size : entry.list("size", {"128K"}))
+            for (const std::string& line : entry.list("line", {"128"}))
+                for (const std::string& ways : entry.list("ways", {"8"}))
+                    caches.push_back(at(owner, fmt::format("caches[{}]", i),
+                                        [&] { return parse_cache(fmt::format("{}:{}:{}", size, line, ways)); }));
+    }
+    return caches;
+}
+
+/// "name:a=1,b=2" for each combination of the lists of values.
+std::vector<std::string> specs(const json& entry, const Object& object, const std::string& name) {
+    std::vector<std::string> all{name};
+    bool first = true;
+    for (const auto& [key, unused] : entry.items()) {
+        if (key == "ordering" || key == "caches") continue;
+        std::vector<std::string> longer;
+        for (const std::string& spec : all)
+            for (const std::string& value : object.list(key, {}))
+                longer.push_back(fmt::format("{}{}{}={}", spec, first ? ":" : ",", key, value));
+        all = std::move(longer);
+        first = false;
+    }
+    return all;
+}
+
+}  // namespace
+
+Experiment load_experiment(const std::filesystem::path& path) {
+    std::ifstream stream(path);
+    if (!stream) throw trace::DataError(fmt::format("{}: found no such file, expected an experiment", path.string()));
+    json root;
+    try {
+        root = json::parse(stream);
+    } catch (const json::exception& error) {
+        throw trace::DataError(fmt::format("{}: found no valid JSON ({})", path.string(), error.what()));
+    }
+    static constexpr std::array<std::string_view, 5> keys{"scene", "capture", "orderings", "caches", "onchip"};
+    const Object in(root, keys, path.string(), "");
+    Experiment experiment;
+    experiment.scene = in.text("scene");
+    // A scene file is named relative to the experiment that uses it.
+    if (experiment.scene.ends_with(".json") && std::filesystem::path(experiment.scene).is_relative())
+        experiment.scene = (path.parent_path() / experiment.scene).string();
+    if (in.has("capture")) experiment.capture = capture_options(root["capture"], path.string());
+    if (in.has("onchip"))
+        experiment.onchip_bytes = at(in, "onchip", [&] { return parse_size(in.list("onchip", {}).front()); });
+    const std::vector<cachesim::CacheConfig> caches =
+        in.has("caches") ? parse_caches(in) : std::vector<cachesim::CacheConfig>{cachesim::CacheConfig{}};
+
+    const json& list = in.array("orderings");
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const std::string place = fmt::format("orderings[{}]", i);
+        const json entry = list[i].is_string() ? json{{"ordering", list[i]}} : list[i];
+        std::vector<std::string_view> known;
+        if (entry.is_object())
+            for (const auto& [key, unused] : entry.items()) known.push_back(key);  // the ordering knows its own keys
+        const Object object(entry, known, path.string(), place);
+        const std::string name = object.text("ordering");
+        for (const std::string& spec : specs(entry, object, name))
+            experiment.trials.push_back({at(in, place, [&] { return reorder::parse_ordering(spec); }),
+                                         object.has("caches") ? parse_caches(object) : caches});
+    }
+    return experiment;
+}
+
+reorder::Reads reads(const Experiment& experiment) {
+    reorder::Reads all;
+    for (const Trial& trial : experiment.trials) {
+        const reorder::Reads one = trial.ordering.ordering->reads();
+        all.direction |= one.direction;
+        all.leaf_kd |= one.leaf_kd;
+        all.leaf_bvh |= one.leaf_bvh;
+    }
+    return all;
+}
+
+}  // namespace regather::cli

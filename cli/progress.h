@@ -1,0 +1,32 @@
+// cli/progress.h -- one line on stderr with what is done, the rate and the time left; nothing when stderr is no terminal.
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+namespace regather::cli {
+
+class Progress {
+public:
+    Progress();
+    ~Progress();  ///< Clears the line.
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// From any thread. A change of `stage` starts the clock again; `unit` is what is counted ("pixels").
+    void update(std::string_view stage, std::string_view unit, std::uint64_t done, std::uint64_t total);
+
+private:
+    using Clock = std::chrono::steady_clock;
+    bool terminal_;
+    bool shown_ = false;
+    std::mutex mutex_;
+    std::string stage_;
+    Clock::time_point start_, drawn_;
+    std::uint64_t first_ = 0;
+};
+
+}  // namespace regather::cli

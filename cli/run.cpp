@@ -1,0 +1,154 @@
+// regather run -- a whole experiment: capture, every ordering, every cache, CSV and charts. Finished parts are kept.
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+#include <xxhash.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <set>
+
+#include "cli/capture_job.h"
+#include "cli/commands.h"
+#include "cli/experiment.h"
+#include "cli/measurement.h"
+#include "cli/progress.h"
+#include "cli/version.h"
+#include "results/chart.h"
+#include "results/csv.h"
+#include "results/provenance.h"
+#include "results/table.h"
+#include "trace/error.h"
+
+namespace regather::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The rows of one trial, as a file that bears a digest of all that they depend on.
+fs::path part_path(const fs::path& folder, const Trial& trial, const trace::TraceReader& trace,
+                   std::uint64_t onchip_bytes) {
+    std::string key = fmt::format("{} {} {}", trace.checksum(), trial.ordering.spec.text, onchip_bytes);
+    for (const cachesim::CacheConfig& cache : trial.caches) key += ' ' + cache_text(cache);
+    return folder / "parts" / fmt::format("{:016x}.csv", XXH3_64bits(key.data(), key.size()));
+}
+
+/// Compulsory traffic by line size, kept likewise.
+void find_compulsory(Measurement& measurement, const fs::path& folder, const Experiment& experiment,
+                     const trace::TraceReader& trace) {
+    std::set<std::uint32_t> sizes;
+    for (const Trial& trial : experiment.trials)
+        for (const cachesim::CacheConfig& cache : trial.caches) sizes.insert(cache.line_bytes);
+    const std::vector<std::uint32_t> lines(sizes.begin(), sizes.end());
+    const fs::path path = folder / "parts" / fmt::format("compulsory-{}-{}.csv", trace.checksum(), fmt::join(lines, "-"));
+    if (fs::exists(path)) {
+        for (const results::Row& row : results::read_csv(path))
+            measurement.compulsory_bytes[static_cast<std::uint32_t>(row.line_bytes.value_or(0))] =
+                row.compulsory_bytes.value_or(0);
+        return;
+    }
+    measurement.find_compulsory(lines);
+    std::vector<results::Row> rows;
+    for (const auto& [line, bytes] : measurement.compulsory_bytes) {
+        results::Row row;
+        row.scene = trace.info().scene;
+        row.ordering = "any";
+        row.line_bytes = line;
+        row.compulsory_bytes = bytes;
+        rows.push_back(row);
+    }
+    results::write_csv(path, rows);
+}
+
+/// Replays what is missing: as many trials at once as there are threads; their orders are made before, one by one, so that
+/// order_seconds is measured on a machine that does nothing else.
+void replay_missing(const Measurement& measurement, const Experiment& experiment, std::span<const fs::path> parts) {
+    std::vector<std::size_t> missing;
+    for (std::size_t t = 0; t < parts.size(); ++t)
+        if (!fs::exists(parts[t])) missing.push_back(t);
+    const std::uint64_t total = missing.size() * measurement.queries();
+    std::atomic<std::uint64_t> done{0};
+    Progress progress;
+    constexpr std::size_t most_at_once = 16;  // permutations held: 4 bytes a query each
+    const std::size_t at_once =
+        std::min<std::size_t>(most_at_once, static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
+    for (std::size_t first = 0; first < missing.size(); first += at_once) {
+        const std::size_t count = std::min(at_once, missing.size() - first);
+        std::vector<reorder::Ordered> ordered;
+        for (std::size_t i = 0; i < count; ++i) {
+            const Trial& trial = experiment.trials[missing[first + i]];
+            progress.update(fmt::format("replaying {} orderings", missing.size()), "queries", done, total);
+            ordered.push_back(measurement.order(*trial.ordering.ordering));
+        }
+        tbb::task_group replays;
+        for (std::size_t i = 0; i < count; ++i)
+            replays.run([&, i] {
+                const std::size_t t = missing[first + i];
+                const Trial& trial = experiment.trials[t];
+                std::uint64_t before = 0;
+                const auto rows = measurement.rows(trial.ordering.spec, ordered[i], trial.caches, [&](std::uint64_t now) {
+                    const std::uint64_t all = done += now - before;
+                    before = now;
+                    progress.update(fmt::format("replaying {} orderings", missing.size()), "queries", all, total);
+                });
+                results::write_csv(parts[t], rows);
+            });
+        replays.wait();
+    }
+}
+
+}  // namespace
+
+void add_run(CLI::App& app) {
+    struct Options {
+        fs::path experiment, folder;
+        bool force = false;
+    };
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("run", "capture, reorder, replay and chart what an experiment file asks for");
+    command->add_option("experiment", options->experiment, "a JSON file; see docs/experiments.md")->required();
+    command->add_option("-o,--output", options->folder, "folder for everything that is made")->required();
+    command->add_flag("--force", options->force, "capture again although the folder holds another capture");
+    command->footer("Finished parts in the folder are kept: the same command goes on after an interruption.\n"
+                    "Example:\n  regather run scenes/experiments/figure4.json -o out/figure4");
+    command->callback([options] {
+        const Experiment experiment = load_experiment(options->experiment);
+        const CaptureResult captured =
+            run(CaptureJob{experiment.scene, experiment.capture, reads(experiment), options->folder, options->force});
+        fmt::print("{}", captured.report);
+        std::fflush(stdout);
+
+        trace::TraceReader trace(options->folder / "trace");
+        Measurement measurement(trace, reads(experiment), experiment.onchip_bytes);
+        fs::create_directories(options->folder / "parts");
+        find_compulsory(measurement, options->folder, experiment, trace);
+        std::vector<fs::path> parts;
+        for (const Trial& trial : experiment.trials)
+            parts.push_back(part_path(options->folder, trial, trace, experiment.onchip_bytes));
+        replay_missing(measurement, experiment, parts);
+
+        std::vector<results::Row> rows;
+        for (const fs::path& part : parts) {
+            const std::vector<results::Row> some = results::read_csv(part);
+            rows.insert(rows.end(), some.begin(), some.end());
+        }
+        const fs::path csv = options->folder / "rows.csv";
+        results::write_csv(csv, rows);
+        results::write_provenance(csv, {command_line(), version(), git_revision(), trace.checksum()},
+                                  trace.info().parameters);
+        const auto charts = results::write_charts(options->folder / "charts", rows, {}, {});
+        fmt::print("{}", results::table(rows));
+        fmt::print("image:  {}\nrows:   {}\n", (options->folder / "image.png").string(), csv.string());
+        for (const results::Drawn& drawn : charts) {
+            if (drawn.files.empty()) {
+                fmt::print("chart:  no {}: {}\n", drawn.kind, drawn.skipped);
+            } else {
+                for (const fs::path& file : drawn.files) fmt::print("chart:  {}\n", file.string());
+            }
+        }
+    });
+}
+
+}  // namespace regather::cli

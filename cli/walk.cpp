@@ -1,0 +1,141 @@
+// regather walk -- makes a trace of somebody else's photons and queries: builds the tree, records every walk.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/progress.h"
+#include "spatial/photon_kd.h"
+#include "spatial/recording.h"
+#include "trace/error.h"
+#include "trace/folder.h"
+
+namespace regather::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using trace::Vec3;
+
+struct Options {
+    fs::path columns, folder;
+    std::uint32_t k = 100, width = 0;
+    double radius = 0;
+    bool force = false;
+};
+
+/// A column of the folder that may be missing.
+template <class T>
+struct OptionalColumn {
+    OptionalColumn(const fs::path& folder, const char* name, std::uint64_t rows) {
+        const fs::path path = folder / fmt::format("{}.npy", name);
+        if (!fs::exists(path)) return;
+        file.push_back(trace::MappedColumn(path, trace::column_type<T>()));
+        if (file.front().size() != rows)
+            throw trace::DataError(fmt::format("{}: found {} rows, expected {} as in query_position.npy", path.string(),
+                                               file.front().size(), rows));
+    }
+    bool exists() const { return !file.empty(); }
+    std::span<const T> rows() const { return file.front().template rows<T>(); }
+    std::vector<trace::MappedColumn> file;
+};
+
+template <class T>
+void copy(trace::TraceWriter& writer, const char* name, const OptionalColumn<T>& column) {
+    if (column.exists()) writer.column(name).append(column.rows());
+}
+
+void make_trace(const Options& options) {
+    const trace::MappedColumn photon_positions(options.columns / "photon_position.npy", trace::column_type<Vec3>());
+    const trace::MappedColumn positions(options.columns / "query_position.npy", trace::column_type<Vec3>());
+    const std::uint64_t queries = positions.size();
+    const OptionalColumn<std::uint32_t> pixel(options.columns, "query_pixel", queries);
+    const OptionalColumn<Vec3> weight(options.columns, "query_weight", queries);
+    const OptionalColumn<Vec3> direction(options.columns, "query_direction", queries);
+    const OptionalColumn<std::uint32_t> leaf_kd(options.columns, "query_leaf_kd", queries);
+    const OptionalColumn<std::uint32_t> leaf_bvh(options.columns, "query_leaf_bvh", queries);
+    if (queries > std::numeric_limits<std::uint32_t>::max())
+        throw trace::DataError(fmt::format("{}: found {} rows, expected fewer than 2^32",
+                                           (options.columns / "query_position.npy").string(), queries));
+
+    trace::TraceWriter writer(options.folder, options.force);
+    std::vector<trace::Photon> photons(photon_positions.size());
+    for (std::size_t i = 0; i < photons.size(); ++i) photons[i].position = photon_positions.rows<Vec3>()[i];
+    const std::vector<trace::Photon> heap = spatial::left_balanced(photons);
+    writer.column("photon").append(std::span<const trace::Photon>(heap));
+    writer.column("query_position").append(positions.rows<Vec3>());
+    copy(writer, "query_weight", weight);
+    copy(writer, "query_direction", direction);
+    copy(writer, "query_leaf_kd", leaf_kd);
+    copy(writer, "query_leaf_bvh", leaf_bvh);
+
+    trace::TraceInfo info;
+    std::uint32_t last_pixel = 0;
+    if (pixel.exists()) {
+        copy(writer, "query_pixel", pixel);
+        for (const std::uint32_t p : pixel.rows()) last_pixel = std::max(last_pixel, p);
+    } else {
+        std::vector<std::uint32_t> own(queries);
+        for (std::size_t i = 0; i < own.size(); ++i) own[i] = static_cast<std::uint32_t>(i);
+        writer.column("query_pixel").append(std::span<const std::uint32_t>(own));
+        last_pixel = own.empty() ? 0 : own.back();
+    }
+    info.image_width = options.width > 0 ? options.width : last_pixel + 1;
+    info.image_height = last_pixel / info.image_width + 1;
+
+    const float radius = options.radius > 0 ? static_cast<float>(options.radius) : std::numeric_limits<float>::infinity();
+    const spatial::PhotonKd tree(heap);
+    constexpr std::uint64_t batch = 1 << 20;
+    Progress progress;
+    for (std::uint64_t first = 0; first < queries || first == 0; first += batch) {
+        const auto points = positions.rows<Vec3>().subspan(first, std::min(batch, queries - first));
+        const spatial::Recording walks = spatial::record_walks(tree, points, options.k, radius);
+        writer.column("query_walk_bytes").append(std::span<const std::uint32_t>(walks.walk_bytes));
+        writer.column("walk").append(std::span<const std::uint8_t>(walks.walks));
+        info.found_photons += walks.found_photons;
+        info.visited_nodes += walks.visited_nodes;
+        progress.update("recording walks", "queries", first + points.size(), queries);
+    }
+    info.scene = fs::weakly_canonical(options.columns).filename().string();
+    info.k = options.k;
+    info.queries = queries;
+    info.photons = heap.size();
+    info.parameters["radius"] = options.radius > 0 ? nlohmann::json(options.radius) : nlohmann::json(nullptr);
+    info.parameters["k"] = options.k;
+    const auto note = [&](const char* name, bool exists) {
+        if (!exists) info.left_out.push_back({name, "it was not among the columns given"});
+    };
+    note("query_weight", weight.exists());
+    note("query_direction", direction.exists());
+    note("query_leaf_kd", leaf_kd.exists());
+    note("query_leaf_bvh", leaf_bvh.exists());
+    writer.finish(info);
+    fmt::print("{} photons, {} queries, {} nodes visited\ntrace: {}\n", info.photons, info.queries, info.visited_nodes,
+               options.folder.string());
+}
+
+}  // namespace
+
+void add_walk(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("walk", "make a trace of your own photons and queries (.npy columns)");
+    command
+        ->add_option("columns", options->columns,
+                     "folder with photon_position.npy and query_position.npy (float32, n x 3) and, if you have them, "
+                     "query_pixel.npy (uint32), query_direction.npy, query_weight.npy (float32, n x 3)")
+        ->required();
+    command->add_option("-o,--output", options->folder, "the trace's folder")->required();
+    command->add_option("--k", options->k, "photons of a search")->check(CLI::Range(1u, (1u << 31) - 1))->capture_default_str();
+    command->add_option("--radius", options->radius, "maximum radius [units of the positions]; 0: unlimited")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command->add_option("--width", options->width, "image width that query_pixel counts with [pixels]");
+    command->add_flag("--force", options->force, "overwrite a finished trace");
+    command->footer("Example:\n  regather walk my_columns -o out/mine --k 50 --width 640");
+    command->callback([options] { make_trace(*options); });
+}
+
+}  // namespace regather::cli

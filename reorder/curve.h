@@ -1,0 +1,28 @@
+// reorder/curve.h -- codes of cells along space-filling curves over a cube of 2^bits cells an edge.
+// Morton: bits interleaved, x highest. Hilbert: the states (entry corner, direction) of Hamilton, "Compact
+// Hilbert Indices", 2006, as a table that takes three levels at once.
+#pragma once
+#include <cstdint>
+
+#include "reorder/cell.h"
+
+namespace regather::reorder {
+
+inline constexpr std::uint32_t max_curve_bits = 21;  ///< An axis; a code then has 63 bits.
+
+/// Bit 3 i + 2 is bit i of x, 3 i + 1 of y, 3 i of z. Coordinates below 2^21.
+std::uint64_t morton_code(const Cell& cell);
+
+/// Position on the Hilbert curve of the cell with this Morton code; coordinates below 2^bits. Consecutive
+/// codes are cells that share a face; the code of a cell's parent cube at bits - 1 is code >> 3.
+std::uint64_t hilbert_code(std::uint64_t morton, std::uint32_t bits);
+
+/// As morton_code, by table; coordinates below 2^8.
+std::uint32_t swizzle_code(const Cell& cell);
+
+/// Operations a code costs beside finding the cell; counted from the code in curve.cpp.
+std::uint64_t morton_ops();
+std::uint64_t hilbert_ops(std::uint32_t bits);
+std::uint64_t swizzle_ops();
+
+}  // namespace regather::reorder

@@ -1,0 +1,70 @@
+#include "reorder/ordering.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "reorder/sort.h"
+#include "trace/error.h"
+
+namespace regather::reorder {
+namespace {
+
+void check_column(std::string_view name, std::size_t rows, std::size_t queries, bool needed) {
+    if (rows == queries) return;
+    if (rows != 0)
+        throw trace::DataError(
+            fmt::format("column {}: {} rows, expected {} as in column position", name, rows, queries));
+    if (needed)
+        throw trace::UsageError(
+            fmt::format("the ordering reads column {}, which this capture does not have", name));
+}
+
+/// The first query whose pixel is outside the image, or the number of queries.
+std::size_t first_outside(std::span<const std::uint32_t> pixel, std::uint64_t pixels) {
+    using Range = tbb::blocked_range<std::size_t>;
+    const auto scan = [&](const Range& range, std::size_t first) {
+        for (std::size_t i = range.begin(); i < std::min(range.end(), first); ++i)
+            if (pixel[i] >= pixels) return i;
+        return first;
+    };
+    return tbb::parallel_reduce(Range(0, pixel.size(), 1 << 16), pixel.size(), scan,
+                                [](std::size_t a, std::size_t b) { return std::min(a, b); });
+}
+
+void check(const Workload& work, Reads reads) {
+    const std::size_t queries = work.position.size();
+    if (queries > 0xffffffffu)
+        throw trace::UsageError(fmt::format("{} queries to order, at most 4294967295 are possible", queries));
+    check_column("pixel", work.pixel.size(), queries, true);
+    check_column("direction", work.direction.size(), queries, reads.direction);
+    check_column("leaf_kd", work.leaf_kd.size(), queries, reads.leaf_kd);
+    check_column("leaf_bvh", work.leaf_bvh.size(), queries, reads.leaf_bvh);
+    const std::uint64_t pixels = std::uint64_t{work.image_width} * work.image_height;
+    if (pixels == 0 || pixels > std::uint64_t{1} << 32)
+        throw trace::DataError(fmt::format("image of {} x {} pixels, expected 1 to 2^32 pixels",
+                                           work.image_width, work.image_height));
+    const std::size_t outside = first_outside(work.pixel, pixels);
+    if (outside != queries)
+        throw trace::DataError(
+            fmt::format("column pixel: row {} is {}, expected less than {} ({} x {} pixels)", outside,
+                        work.pixel[outside], pixels, work.image_width, work.image_height));
+}
+
+}  // namespace
+
+Ordered order(const Ordering& ordering, const Workload& work, std::uint64_t onchip_bytes) {
+    check(work, ordering.reads());
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<std::uint64_t> keys(work.position.size());
+    Ordered result;
+    result.cost = ordering.assign_keys(work, onchip_bytes, keys);
+    result.permutation = sorted_permutation(keys);
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+}
+
+}  // namespace regather::reorder

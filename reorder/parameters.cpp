@@ -1,0 +1,150 @@
+#include "reorder/parameters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <charconv>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "trace/error.h"
+
+namespace regather::reorder {
+namespace {
+
+/// Letters to insert, delete or replace (Levenshtein).
+std::size_t distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] != b[j]);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+        }
+    }
+    return row.back();
+}
+
+std::vector<std::string_view> names_of(std::span<const Parameter> known) {
+    std::vector<std::string_view> names;
+    for (const Parameter& parameter : known) names.push_back(parameter.name);
+    return names;
+}
+
+}  // namespace
+
+std::string_view nearest(std::string_view word, std::span<const std::string_view> names) {
+    return *std::min_element(names.begin(), names.end(), [word](std::string_view a, std::string_view b) {
+        return distance(word, a) < distance(word, b);
+    });
+}
+
+std::string listed(std::span<const std::string_view> names) {
+    std::string list;
+    for (const std::string_view name : names) {
+        if (!list.empty()) list += ", ";
+        list += name;
+    }
+    return list;
+}
+
+Parameters::Parameters(std::string_view ordering, std::span<const Parameter> known, std::string_view text)
+    : ordering_(ordering), known_(known) {
+    for (const Parameter& parameter : known) values_.emplace_back(parameter.default_value);
+    std::vector<bool> set(known.size());
+    while (!text.empty()) {
+        const std::size_t comma = std::min(text.find(','), text.size());
+        const std::string_view item = text.substr(0, comma);
+        const bool last = comma == text.size();
+        text.remove_prefix(last ? comma : comma + 1);
+        const std::size_t equals = std::min(item.find('='), item.size());
+        const std::string_view name = item.substr(0, equals);
+        const std::vector<std::string_view> names = names_of(known);
+        if (names.empty())
+            throw trace::UsageError(fmt::format("{}: parameter \"{}\" found, it takes none", ordering, item));
+        const auto found = std::find(names.begin(), names.end(), name);
+        if (found == names.end())
+            throw trace::UsageError(fmt::format("{}: unknown parameter \"{}\"; nearest: {}; known: {}",
+                                                ordering, name, nearest(name, names), listed(names)));
+        const auto index = static_cast<std::size_t>(found - names.begin());
+        if (set[index])
+            throw trace::UsageError(fmt::format("{}: parameter {} is given twice", ordering, name));
+        if (equals + 1 >= item.size())
+            throw trace::UsageError(
+                fmt::format("{}: parameter {} has no value, expected {}=...", ordering, name, name));
+        if (!last && text.empty())
+            throw trace::UsageError(
+                fmt::format("{}: nothing after the comma, expected a parameter", ordering));
+        set[index] = true;
+        values_[index] = item.substr(equals + 1);
+    }
+}
+
+std::string& Parameters::value(std::string_view name) {
+    return const_cast<std::string&>(std::as_const(*this).value(name));
+}
+
+const std::string& Parameters::value(std::string_view name) const {
+    const auto found = std::find_if(known_.begin(), known_.end(),
+                                    [name](const Parameter& known) { return known.name == name; });
+    assert(found != known_.end());
+    return values_[static_cast<std::size_t>(found - known_.begin())];
+}
+
+std::optional<std::uint64_t> Parameters::given(std::string_view name) const {
+    const std::string& text = value(name);
+    if (text.empty()) return {};
+    std::uint64_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool one_spelling = text == "0" || text.front() != '0';  // equal orderings have equal specs
+    if (error != std::errc{} || end != text.data() + text.size() || !one_spelling)
+        throw trace::UsageError(
+            fmt::format("{}: {} is \"{}\", expected a whole number below 2^64", ordering_, name, text));
+    return number;
+}
+
+std::uint64_t Parameters::number(std::string_view name) const {
+    return given(name).value();
+}
+
+std::optional<std::uint32_t> Parameters::given_count(std::string_view name) const {
+    const std::optional<std::uint64_t> number = given(name);
+    if (!number) return {};
+    if (*number > std::numeric_limits<std::uint32_t>::max())
+        throw trace::UsageError(
+            fmt::format("{}: {} is {}, expected less than 2^32", ordering_, name, *number));
+    return static_cast<std::uint32_t>(*number);
+}
+
+std::uint32_t Parameters::count(std::string_view name) const {
+    return given_count(name).value();
+}
+
+std::uint32_t Parameters::count_or(std::string_view name, std::uint32_t fallback) {
+    if (value(name).empty()) value(name) = fmt::format("{}", fallback);
+    return count(name);
+}
+
+std::size_t Parameters::choice(std::string_view name, std::initializer_list<std::string_view> words) const {
+    const auto found = std::find(words.begin(), words.end(), std::string_view(value(name)));
+    if (found == words.end())
+        throw trace::UsageError(fmt::format("{}: {} is \"{}\"; nearest: {}; known: {}", ordering_, name,
+                                            value(name), nearest(value(name), {words.begin(), words.size()}),
+                                            listed({words.begin(), words.size()})));
+    return static_cast<std::size_t>(found - words.begin());
+}
+
+std::string Parameters::text() const {
+    std::string text;
+    for (std::size_t i = 0; i < known_.size(); ++i)
+        if (!values_[i].empty())
+            text += fmt::format("{}{}={}", text.empty() ? "" : ",", known_[i].name, values_[i]);
+    return text;
+}
+
+}  // namespace regather::reorder

@@ -1,0 +1,20 @@
+// reorder/range.h -- refuses a parameter that is out of range.
+#pragma once
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string_view>
+
+#include "trace/error.h"
+
+namespace regather::reorder {
+
+/// Throws trace::UsageError that names ordering, parameter, value and range.
+inline void require_range(std::string_view ordering, std::string_view parameter, std::uint64_t value,
+                          std::uint64_t min, std::uint64_t max) {
+    if (value < min || value > max)
+        throw trace::UsageError(
+            fmt::format("{}: {} is {}, expected {} to {}", ordering, parameter, value, min, max));
+}
+
+}  // namespace regather::reorder

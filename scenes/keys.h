@@ -1,0 +1,42 @@
+// scenes/keys.h -- which keys each object of a scene file may have: the one table that the loader checks
+// against. docs/scene_format.md explains the same keys to people.
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace regather::scenes {
+
+struct Key {
+    std::string_view name;
+    bool required;
+    std::string_view expected;  ///< "a positive length [m]": what an error message says was expected.
+};
+
+/// A kind of object: "scene", "camera", "sphere", "diffuse material" ...
+struct Kind {
+    std::string_view name;
+    std::vector<Key> keys;
+    const Key& key(std::string_view key_name) const;  ///< One that is in the table.
+};
+
+const Kind& scene_kind();
+const Kind& camera_kind();
+const Kind& light_kind();
+/// Told apart by their key "type": quad, box, sphere, mesh.
+std::span<const Kind> shape_kinds();
+/// Told apart by their key "kind": diffuse, glossy, mirror, dielectric.
+std::span<const Kind> material_kinds();
+
+/// The words closest to `word` by edit distance (insertions, deletions, substitutions; Levenshtein 1966);
+/// several when they tie, in their given order.
+std::vector<std::string_view> nearest(std::string_view word, std::span<const std::string_view> words);
+
+/// `"a"`, `"a" or "b"`, `"a", "b" or "c"`.
+std::string alternatives(std::span<const std::string_view> words);
+
+/// `a, b, c`.
+std::string listed(std::span<const std::string_view> words);
+
+}  // namespace regather::scenes

@@ -1,0 +1,161 @@
+#include "scenes/tessellation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace regather::scenes {
+
+namespace {
+
+constexpr double radians_per_degree = std::numbers::pi / 180;
+
+// Exact at both ends, so that neighbouring faces meet in the same floats.
+float between(float from, float to, std::uint32_t i, std::uint32_t n) {
+    return i == n ? to : static_cast<float>(from + (static_cast<double>(to) - from) * i / n);
+}
+
+// The two triangles of each cell of an (nu + 1) x (nv + 1) grid of vertices that starts at `first`, u
+// fastest.
+void add_grid_triangles(Surface& surface, std::uint32_t first, std::uint32_t nu, std::uint32_t nv) {
+    for (std::uint32_t j = 0; j < nv; ++j)
+        for (std::uint32_t i = 0; i < nu; ++i) {
+            const std::uint32_t a = first + j * (nu + 1) + i, b = a + 1, c = b + nu + 1, d = a + nu + 1;
+            surface.triangles.push_back({a, b, c});
+            surface.triangles.push_back({a, c, d});
+        }
+}
+
+std::uint32_t ring_count(const Sphere& sphere) {
+    return std::max(2u, sphere.segments / 2);
+}
+
+}  // namespace
+
+std::uint64_t triangle_count(const Quad& quad) {
+    return 2ull * quad.divide[0] * quad.divide[1];
+}
+
+std::uint64_t triangle_count(const Box& box) {
+    const std::uint64_t x = box.divide[0], y = box.divide[1], z = box.divide[2];
+    return 4 * (x * y + y * z + z * x);
+}
+
+std::uint64_t triangle_count(const Sphere& sphere) {
+    return 2ull * sphere.segments * (ring_count(sphere) - 1);
+}
+
+Surface tessellate(const Quad& quad) {
+    Surface surface;
+    const auto [nu, nv] = quad.divide;
+    const Vec3 c = quad.corner, u = quad.edge_u, v = quad.edge_v;
+    for (std::uint32_t j = 0; j <= nv; ++j)
+        for (std::uint32_t i = 0; i <= nu; ++i) {
+            const double s = static_cast<double>(i) / nu, t = static_cast<double>(j) / nv;
+            surface.vertices.push_back({static_cast<float>(c.x + s * u.x + t * v.x),
+                                        static_cast<float>(c.y + s * u.y + t * v.y),
+                                        static_cast<float>(c.z + s * u.z + t * v.z)});
+        }
+    add_grid_triangles(surface, 0, nu, nv);
+    surface.normals.resize(surface.vertices.size());
+    return surface;
+}
+
+Surface tessellate(const Box& box) {
+    Surface surface;
+    const Vec3 from[2] = {box.min, box.max};
+    for (int axis = 0; axis < 3; ++axis)
+        for (int side = 0; side < 2; ++side) {
+            // u x v points along +axis; on the lower side u and v swap places to face outward.
+            const int u = side == 1 ? (axis + 1) % 3 : (axis + 2) % 3;
+            const int v = side == 1 ? (axis + 2) % 3 : (axis + 1) % 3;
+            const std::uint32_t nu = box.divide[static_cast<std::size_t>(u)];
+            const std::uint32_t nv = box.divide[static_cast<std::size_t>(v)];
+            const auto first = static_cast<std::uint32_t>(surface.vertices.size());
+            for (std::uint32_t j = 0; j <= nv; ++j)
+                for (std::uint32_t i = 0; i <= nu; ++i) {
+                    Vec3 p;
+                    p[axis] = from[side][axis];
+                    p[u] = between(box.min[u], box.max[u], i, nu);
+                    p[v] = between(box.min[v], box.max[v], j, nv);
+                    surface.vertices.push_back(p);
+                }
+            add_grid_triangles(surface, first, nu, nv);
+        }
+    if (box.rotate_z_degrees != 0) {
+        const double angle = box.rotate_z_degrees * radians_per_degree;
+        const double cosine = std::cos(angle), sine = std::sin(angle);
+        const double mid_x = (static_cast<double>(box.min.x) + box.max.x) / 2;
+        const double mid_y = (static_cast<double>(box.min.y) + box.max.y) / 2;
+        for (Vec3& p : surface.vertices) {
+            const double x = p.x - mid_x, y = p.y - mid_y;
+            p.x = static_cast<float>(mid_x + cosine * x - sine * y);
+            p.y = static_cast<float>(mid_y + sine * x + cosine * y);
+        }
+    }
+    surface.normals.resize(surface.vertices.size());
+    return surface;
+}
+
+Surface tessellate(const Sphere& sphere) {
+    Surface surface;
+    const std::uint32_t around = sphere.segments, rings = ring_count(sphere);
+    const auto add_vertex = [&](double x, double y, double z) {
+        const Vec3 normal{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+        surface.normals.push_back(normal);
+        surface.vertices.push_back(sphere.center + normal * sphere.radius);
+    };
+    add_vertex(0, 0, 1);
+    for (std::uint32_t ring = 1; ring < rings; ++ring) {
+        const double theta = std::numbers::pi * ring / rings;
+        for (std::uint32_t i = 0; i < around; ++i) {
+            const double phi = 2 * std::numbers::pi * i / around;
+            add_vertex(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+        }
+    }
+    add_vertex(0, 0, -1);
+
+    // Vertex 0 is the north pole, then rings - 1 rings from north to south, then the south pole.
+    const auto south = static_cast<std::uint32_t>(surface.vertices.size() - 1);
+    const std::uint32_t last_ring = south - around;
+    for (std::uint32_t i = 0; i < around; ++i) {
+        const std::uint32_t next = (i + 1) % around;
+        surface.triangles.push_back({0, 1 + i, 1 + next});
+        for (std::uint32_t upper = 1; upper < last_ring; upper += around) {
+            const std::uint32_t lower = upper + around;
+            surface.triangles.push_back({upper + i, lower + i, lower + next});
+            surface.triangles.push_back({upper + i, lower + next, upper + next});
+        }
+        surface.triangles.push_back({south, last_ring + next, last_ring + i});
+    }
+    return surface;
+}
+
+double triangle_area(Vec3 a, Vec3 b, Vec3 c) {
+    const double ux = static_cast<double>(b.x) - a.x, uy = static_cast<double>(b.y) - a.y;
+    const double uz = static_cast<double>(b.z) - a.z, vx = static_cast<double>(c.x) - a.x;
+    const double vy = static_cast<double>(c.y) - a.y, vz = static_cast<double>(c.z) - a.z;
+    const double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+    return std::sqrt(x * x + y * y + z * z) / 2;
+}
+
+namespace {
+
+auto has_no_area(const Surface& surface) {
+    return [&surface](const std::array<std::uint32_t, 3>& t) {
+        return !(triangle_area(surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]) > 0);
+    };
+}
+
+}  // namespace
+
+std::uint64_t degenerate_count(const Surface& surface) {
+    return static_cast<std::uint64_t>(
+        std::count_if(surface.triangles.begin(), surface.triangles.end(), has_no_area(surface)));
+}
+
+std::uint64_t drop_degenerate(Surface& surface) {
+    return std::erase_if(surface.triangles, has_no_area(surface));
+}
+
+}  // namespace regather::scenes

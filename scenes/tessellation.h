@@ -1,0 +1,56 @@
+// scenes/tessellation.h -- triangles of the shapes that a scene file can name: quads, boxes and spheres.
+// Lengths in metres. Triangles are counter-clockwise seen from outside. A box or sphere is watertight to the
+// last bit: each edge is shared by exactly two triangles whose corners there are equal, seen in opposite
+// directions.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "trace/vec.h"
+
+namespace regather::scenes {
+
+using trace::Vec3;
+
+struct Surface {
+    std::vector<Vec3> vertices;
+    std::vector<Vec3> normals;  ///< One a vertex, unit length; zero where the surface is flat-shaded.
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+struct Quad {
+    Vec3 corner, edge_u, edge_v;                ///< Faces along cross(edge_u, edge_v).
+    std::array<std::uint32_t, 2> divide{1, 1};  ///< Cells along edge_u and edge_v, >= 1.
+};
+
+struct Box {
+    Vec3 min, max;                                 ///< Before the rotation.
+    double rotate_z_degrees = 0;                   ///< Counter-clockwise seen from above, about the centre.
+    std::array<std::uint32_t, 3> divide{1, 1, 1};  ///< Cells along x, y and z, >= 1.
+};
+
+struct Sphere {
+    Vec3 center;
+    float radius = 1;
+    std::uint32_t segments = 32;  ///< Around the z axis, >= 3; half as many (at least 2) from pole to pole.
+};
+
+std::uint64_t triangle_count(const Quad&);
+std::uint64_t triangle_count(const Box&);
+std::uint64_t triangle_count(const Sphere&);
+
+Surface tessellate(const Quad&);
+Surface tessellate(const Box&);
+Surface tessellate(const Sphere&);  ///< With smooth normals.
+
+/// Of the triangle a, b, c [m^2], in double precision.
+double triangle_area(Vec3 a, Vec3 b, Vec3 c);
+
+/// How many triangles have no area in float coordinates.
+std::uint64_t degenerate_count(const Surface&);
+
+/// Takes those triangles out and tells how many they were.
+std::uint64_t drop_degenerate(Surface&);
+
+}  // namespace regather::scenes

@@ -1,0 +1,41 @@
+#include "spatial/recording.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "spatial/nearest.h"
+#include "spatial/walk.h"
+
+namespace regather::spatial {
+
+Recording record_walks(const PhotonKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius) {
+    constexpr std::size_t chunk_points = 4096;
+    struct Chunk {
+        std::vector<std::uint8_t> walks;
+        std::uint64_t found = 0, visited = 0;
+    };
+    Recording all;
+    all.walk_bytes.resize(points.size());
+    std::vector<Chunk> chunks((points.size() + chunk_points - 1) / chunk_points);
+    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+        NearestSet found(std::min(k, tree.size()), radius);
+        WalkRecorder recorder;
+        const std::size_t end = std::min(points.size(), (c + 1) * chunk_points);
+        for (std::size_t i = c * chunk_points; i < end; ++i) {
+            nearest(tree, points[i], found, recorder);
+            all.walk_bytes[i] = recorder.finish();
+            chunks[c].found += found.size();
+        }
+        chunks[c].walks.assign(recorder.bytes().begin(), recorder.bytes().end());
+        chunks[c].visited = recorder.visited_nodes();
+    });
+    for (const Chunk& chunk : chunks) {
+        all.walks.insert(all.walks.end(), chunk.walks.begin(), chunk.walks.end());
+        all.found_photons += chunk.found;
+        all.visited_nodes += chunk.visited;
+    }
+    return all;
+}
+
+}  // namespace regather::spatial

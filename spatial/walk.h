@@ -1,0 +1,99 @@
+// spatial/walk.h -- the walk of a kNN search as bits, and back. A search of the left-balanced tree makes two decisions at
+// each visited node that has a child: which child first, and later whether the other one is entered. These bits, in the
+// order of the decisions, give the visited nodes back without searching: 2 bits a visited inner node, none for a leaf.
+//
+// Grammar (bits from the most significant of each byte, as numpy.unpackbits reads them; a walk starts on a byte and is
+// padded with zeros). A search that visits nothing has a walk of no bytes; any other walk has at least one byte.
+//   walk(node): the node is visited; then, if it has a child:
+//   near bit: 1 = the upper child (2i+1, counted from 1) comes first; then the walk of that child, if it exists;
+//   far bit:  1 = the other child exists and is entered; then its walk.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+namespace regather::spatial {
+
+/// Listens to nearest() and appends walks to one byte buffer.
+class WalkRecorder {
+public:
+    void visit(std::uint32_t) {
+        ++visited_;
+        began_ = true;
+    }
+    void near(bool upper) { push(upper); }
+    void far(bool entered) { push(entered); }
+
+    /// Ends a walk; returns its bytes.
+    std::uint32_t finish() {
+        const std::size_t rest = began_ && bytes_.size() == start_ && used_ == 0 ? 1 : (used_ + 7) / 8;
+        append(used_ == 0 ? 0 : word_ << (64 - used_), rest);
+        const auto walk_bytes = static_cast<std::uint32_t>(bytes_.size() - start_);
+        start_ = bytes_.size();
+        word_ = 0;
+        used_ = 0;
+        began_ = false;
+        return walk_bytes;
+    }
+    std::span<const std::uint8_t> bytes() const { return bytes_; }
+    std::uint64_t visited_nodes() const { return visited_; }
+    void clear() {
+        bytes_.clear();
+        start_ = 0;
+        visited_ = 0;
+    }
+
+private:
+    void push(bool bit) {
+        word_ = word_ << 1 | static_cast<std::uint64_t>(bit);
+        if (++used_ == 64) {
+            append(word_, 8);
+            word_ = 0;
+            used_ = 0;
+        }
+    }
+    /// The upper bytes of a word.
+    void append(std::uint64_t word, std::size_t count) {
+        const std::uint64_t swapped = __builtin_bswap64(word);
+        const std::size_t at = bytes_.size();
+        bytes_.resize(at + count);
+        std::memcpy(bytes_.data() + at, &swapped, count);
+    }
+
+    std::vector<std::uint8_t> bytes_;
+    std::size_t start_ = 0;
+    std::uint64_t word_ = 0, visited_ = 0;
+    unsigned used_ = 0;
+    bool began_ = false;
+};
+
+/// Why a walk cannot be decoded.
+enum class WalkFault : std::uint8_t { none, ends_early, bytes_left_over, enters_missing_child };
+
+/// Decodes walks over a left-balanced tree. One thread at a time.
+///
+/// Every node above the last two levels has two children, so a descent from a node is a run of near bits whose length
+/// is known: it is read at once, and the nodes are prefixes of one number. The far children that are not yet decided are
+/// a set of levels, and a run of zero far bits drops as many of them. So the work is by descent, not by node, and has
+/// no branch that depends on the bits.
+class WalkDecoder {
+public:
+    explicit WalkDecoder(std::uint32_t photons);
+
+    struct Visits {
+        WalkFault fault;
+        std::span<const std::uint32_t> slots;  ///< Visited nodes in order, counted from 1; up to the fault.
+    };
+    /// The result lives until the next call.
+    Visits decode(std::span<const std::uint8_t> walk);
+
+private:
+    std::uint32_t photons_;
+    int deepest_;                         // level of the last node; the root's is 0
+    std::vector<std::uint8_t> padded_;    // the walk, and zeros
+    std::vector<std::uint32_t> visited_;
+};
+
+}  // namespace regather::spatial

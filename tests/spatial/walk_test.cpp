@@ -1,0 +1,146 @@
+#include "spatial/walk.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <tbb/global_control.h>
+
+#include "spatial/nearest.h"
+#include "spatial/recording.h"
+#include "tests/spatial/photons.h"
+
+namespace regather::spatial {
+namespace {
+
+/// Visited nodes, counted from 0; none for a faulty walk.
+std::vector<std::uint32_t> nodes(WalkDecoder& decoder, std::span<const std::uint8_t> walk) {
+    const auto [fault, slots] = decoder.decode(walk);
+    std::vector<std::uint32_t> list;
+    if (fault == WalkFault::none)
+        for (const std::uint32_t slot : slots) list.push_back(slot - 1);
+    return list;
+}
+std::vector<std::uint32_t> nodes(std::uint32_t photons, std::span<const std::uint8_t> walk) {
+    WalkDecoder decoder(photons);
+    return nodes(decoder, walk);
+}
+
+struct RecordedSearch {
+    std::vector<std::uint32_t> visited;
+    WalkRecorder recorder;
+    void visit(std::uint32_t node) {
+        visited.push_back(node);
+        recorder.visit(node);
+    }
+    void near(bool upper) { recorder.near(upper); }
+    void far(bool entered) { recorder.far(entered); }
+};
+
+TEST(Walk, TheBitsOfASmallSearchAreThoseDrawnByHand) {
+    // Tree 3 | 1 5 | 0 2 4 6; the two nearest of 0.4. Near: 3 -> lower (0), 1 -> lower (0), leaf 0. Far: 1's other child
+    // 2 is 0.6 from the plane, bound 0.6: entered (1); then the root's at 2.6: not (0). Bits 0 0 1 0, from the top of the byte.
+    const std::vector<Photon> heap = left_balanced(photons_on_a_line({0, 1, 2, 3, 4, 5, 6}));
+    NearestSet found(2);
+    RecordedSearch search;
+    nearest(PhotonKd(heap), {0.4f, 0, 0}, found, search);
+    EXPECT_EQ(search.recorder.finish(), 1u);
+    EXPECT_EQ(search.recorder.bytes()[0], 0b0010'0000);
+    EXPECT_EQ(nodes(7, search.recorder.bytes()), (std::vector<std::uint32_t>{0, 1, 3, 4}));
+}
+
+TEST(Walk, DecodingGivesTheSearchsVisitsNodeForNode) {
+    ASSERT_TRUE(rc::check([] {
+        const std::vector<Photon> heap = left_balanced(*any_photons(200));
+        WalkDecoder decoder(static_cast<std::uint32_t>(heap.size()));
+        const auto coordinate = [] { return static_cast<float>(*rc::gen::inRange(-4, 12)) * 0.5f; };
+        NearestSet found(static_cast<std::uint32_t>(*rc::gen::inRange(0, 30)));
+        RecordedSearch search;
+        nearest(PhotonKd(heap), {coordinate(), coordinate(), coordinate()}, found, search);
+        search.recorder.finish();
+        RC_ASSERT(nodes(decoder, search.recorder.bytes()) == search.visited);
+    }));
+}
+
+TEST(Walk, EveryTreeSizeDecodes) {
+    // All shapes of the last level, with walks from one branch to the whole tree.
+    for (std::uint32_t count = 1; count <= 130; ++count) {
+        const std::vector<Photon> heap = left_balanced(uniform_photons(count, count));
+        WalkDecoder decoder(count);
+        for (const std::uint32_t k : {1u, 5u, count}) {
+            NearestSet found(k);
+            RecordedSearch search;
+            nearest(PhotonKd(heap), {0.5f, 0.25f, 0.75f}, found, search);
+            search.recorder.finish();
+            ASSERT_EQ(nodes(decoder, search.recorder.bytes()), search.visited) << count << ' ' << k;
+        }
+    }
+}
+
+TEST(Walk, ManySearchesShareOneBuffer) {
+    const std::vector<Photon> heap = left_balanced(clustered_photons(5000));
+    WalkDecoder decoder(5000);
+    NearestSet found(50);
+    RecordedSearch search;
+    Numbers numbers(3);
+    std::size_t start = 0;
+    for (int q = 0; q < 500; ++q) {
+        search.visited.clear();
+        nearest(PhotonKd(heap), {numbers.uniform(), numbers.uniform(), numbers.uniform()}, found, search);
+        const std::size_t bytes = search.recorder.finish();
+        ASSERT_EQ(nodes(decoder, search.recorder.bytes().subspan(start, bytes)), search.visited);
+        start += bytes;
+    }
+    EXPECT_EQ(start, search.recorder.bytes().size());
+}
+
+TEST(Walk, ATreeOfOnePhotonTellsAVisitFromNone) {
+    WalkRecorder recorder;
+    recorder.visit(0);
+    EXPECT_EQ(recorder.finish(), 1u);
+    EXPECT_EQ(recorder.finish(), 0u);
+    EXPECT_EQ(nodes(1, recorder.bytes()), (std::vector<std::uint32_t>{0}));
+    EXPECT_TRUE(nodes(1, {}).empty());
+}
+
+TEST(Walk, DamagedWalksAreToldApart) {
+    const std::vector<Photon> heap = left_balanced(uniform_photons(1000));
+    WalkDecoder decoder(1000);
+    NearestSet found(20);
+    WalkRecorder recorder;
+    nearest(PhotonKd(heap), {0.5f, 0.5f, 0.5f}, found, recorder);
+    recorder.finish();
+    std::vector<std::uint8_t> walk(recorder.bytes().begin(), recorder.bytes().end());
+    EXPECT_EQ(decoder.decode(walk).fault, WalkFault::none);
+    EXPECT_EQ(decoder.decode(std::span(walk).first(walk.size() - 1)).fault, WalkFault::ends_early);
+    walk.push_back(0);
+    EXPECT_EQ(decoder.decode(walk).fault, WalkFault::bytes_left_over);
+    EXPECT_EQ(WalkDecoder(0).decode(walk).fault, WalkFault::bytes_left_over);
+    // Two photons, lower child first (0), then its sibling, which does not exist, entered (1).
+    EXPECT_EQ(WalkDecoder(2).decode(std::vector<std::uint8_t>{0b0100'0000}).fault, WalkFault::enters_missing_child);
+}
+
+TEST(Walk, ArbitraryBytesNeverLeaveTheTree) {
+    ASSERT_TRUE(rc::check([] {
+        const auto photons = static_cast<std::uint32_t>(*rc::gen::inRange(1, 2000));
+        const auto bytes = *rc::gen::arbitrary<std::vector<std::uint8_t>>();
+        WalkDecoder decoder(photons);
+        for (const std::uint32_t slot : decoder.decode(bytes).slots) RC_ASSERT(slot >= 1 && slot <= photons);
+    }));
+}
+
+TEST(Walk, RecordingIsTheSameOnAnyNumberOfThreads) {
+    const std::vector<Photon> heap = left_balanced(uniform_photons(3000));
+    std::vector<Vec3> points;
+    Numbers numbers(5);
+    for (int i = 0; i < 20000; ++i) points.push_back({numbers.uniform(), numbers.uniform(), numbers.uniform()});
+    points[77].x = std::numeric_limits<float>::quiet_NaN();
+    const Recording two = record_walks(PhotonKd(heap), points, 10, 1);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    const Recording one = record_walks(PhotonKd(heap), points, 10, 1);
+    EXPECT_EQ(one.walks, two.walks);
+    EXPECT_EQ(one.walk_bytes, two.walk_bytes);
+    EXPECT_EQ(one.visited_nodes, two.visited_nodes);
+    EXPECT_EQ(one.walk_bytes[77], 0u);
+}
+
+}  // namespace
+}  // namespace regather::spatial

@@ -1,0 +1,101 @@
+// trace/folder.h -- a trace: a folder with one .npy file per column and a trace.json that is written last, by an atomic
+// rename. A folder without trace.json is an unfinished capture. Every column, with type and unit: docs/trace_format.md.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trace/npy.h"
+
+namespace regather::trace {
+
+inline constexpr int schema_version = 1;
+
+/// The columns that a trace can have; columns of one group have the same number of rows.
+struct ColumnEntry {
+    std::string_view name, group, unit, meaning;
+    const ColumnType& (*type)();
+    bool required;  ///< By replay; the others may have been left out.
+};
+std::span<const ColumnEntry> column_table();
+const ColumnEntry& column_entry(std::string_view name);  ///< UsageError for an unknown name.
+
+struct LeftOut {
+    std::string what, why;
+};
+
+/// What trace.json says besides the columns.
+struct TraceInfo {
+    std::string scene;
+    std::uint32_t image_width = 0, image_height = 0;  ///< [pixels]
+    std::uint32_t k = 0;
+    std::uint64_t seed = 0;
+    std::string structure = "left-balanced-kd";
+    std::uint64_t queries = 0, photons = 0;
+    std::uint64_t found_photons = 0;  ///< Sum over the queries of the photons that each found.
+    std::uint64_t visited_nodes = 0;  ///< Sum over the queries of the nodes that each visited.
+    nlohmann::json parameters = nlohmann::json::object();  ///< As the capture was asked for.
+    nlohmann::json counts = nlohmann::json::object();      ///< What the capture counted: rays, energy [W] ...
+    std::vector<LeftOut> left_out;
+};
+
+/// Writes a trace. Until finish() the folder is not a trace for any reader, whatever happens.
+class TraceWriter {
+public:
+    /// Creates `folder` if needed. Throws UsageError when it holds a finished trace and `force` is false, or other files
+    /// than a trace's; a finished trace that is overwritten loses its trace.json first.
+    TraceWriter(std::filesystem::path folder, bool force);
+
+    ColumnWriter& column(std::string_view name);  ///< Created at the first call.
+    void finish(const TraceInfo& info);
+
+private:
+    std::filesystem::path folder_;
+    std::map<std::string, ColumnWriter, std::less<>> writers_;
+};
+
+/// Opens a finished trace. Throws DataError that names file, field, found and expected when it is not one, or is of
+/// another schema version, or a required column is missing or has another row count than trace.json says.
+class TraceReader {
+public:
+    explicit TraceReader(std::filesystem::path folder);
+
+    const TraceInfo& info() const { return info_; }
+    const std::filesystem::path& folder() const { return folder_; }
+    bool has(std::string_view name) const { return digests_.contains(std::string(name)); }
+    std::map<std::string, ColumnDigest> const& digests() const { return digests_; }
+
+    /// The rows of a column; its checksum is verified the first time. DataError when it was left out or altered.
+    template <class T>
+    std::span<const T> column(std::string_view name) {
+        return open(name, column_type<T>()).template rows<T>();
+    }
+    template <class T>
+    std::span<const T> column_or_empty(std::string_view name) {
+        return has(name) ? column<T>(name) : std::span<const T>{};
+    }
+    void verify_all();  ///< Reads every column.
+    /// One number for the whole trace: XXH3-64 over the names and checksums of its columns, in hexadecimal.
+    std::string checksum() const;
+    /// The walks are read in no order: tells the kernel so.
+    void expect_random_access(std::string_view name);
+
+private:
+    const MappedColumn& open(std::string_view name, const ColumnType& type);
+
+    std::filesystem::path folder_;
+    TraceInfo info_;
+    std::map<std::string, ColumnDigest> digests_;
+    std::map<std::string, MappedColumn, std::less<>> open_;
+};
+
+/// Writes `text` to `path` as a whole or not at all: a file beside it, then a rename. DataError when it cannot.
+void write_atomically(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace regather::trace
