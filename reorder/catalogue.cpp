@@ -28,7 +28,7 @@ constexpr Parameter state{"state", "store",
                           "what later passes need of a pixel: store | recast (its eye ray)"};
 constexpr Parameter buckets{"buckets", "512", "number of buckets; buckets x capacity at most 2^26"};
 constexpr Parameter capacity{"capacity", "64", "queries a bucket holds"};
-constexpr Parameter cells{"cells", "64", "of the hash grid along the longest axis, 1 to 2097152"};
+constexpr Parameter cells{"cells", "16", "of the hash grid along the longest axis, 1 to 2097152"};
 
 constexpr Parameter random_parameters[] = {{"seed", "1", "a whole number"}};
 constexpr Parameter tiled_parameters[] = {

@@ -11,7 +11,9 @@ namespace {
 constexpr std::size_t padding = 16;    // bytes that may be read past a walk
 constexpr std::size_t margin = 40;     // nodes that one descent may write
 
-/// 57 bits or more from bit `position`, at the top of the word.
+constexpr int whole_bits = 57;         // that bits_at() gives at least
+
+/// The bits from `position` on, at the top of the word.
 std::uint64_t bits_at(const std::uint8_t* bytes, std::uint64_t position) {
     std::uint64_t word;
     std::memcpy(&word, bytes + position / 8, 8);
@@ -42,7 +44,12 @@ WalkDecoder::Visits WalkDecoder::decode(std::span<const std::uint8_t> walk) {
 
     const std::uint8_t* const bytes = padded_.data();
     const std::uint64_t photons = photons_, total = 8 * walk.size();
+    // One round takes at most a near bit and a far bit for each level: then a word is fetched for several rounds.
+    const int most_bits = 2 * deepest_ + 2;
+    const bool refetch = most_bits > whole_bits;
     std::uint64_t position = 0, pending = 0;  // pending bit l: the far child of the path's node on level l is undecided
+    std::uint64_t bits = 0;                   // from `position`
+    int held = 0;
     std::uint64_t slot = 1;
     std::size_t count = 0;
     int level = 0;
@@ -52,7 +59,10 @@ WalkDecoder::Visits WalkDecoder::decode(std::span<const std::uint8_t> walk) {
 
         // Near bits down to the level above the deepest, then one more where there is a child.
         const int steps = std::max(0, deepest_ - 1 - level);
-        std::uint64_t bits = bits_at(bytes, position);
+        if (held < most_bits) {
+            bits = bits_at(bytes, position);
+            held = whole_bits;
+        }
         slot = slot << steps | (bits >> 1 >> (63 - steps));
         write_prefixes(static_cast<std::uint32_t>(slot), steps, to);
         pending |= ((std::uint64_t{1} << steps) - 1) << level;
@@ -66,10 +76,12 @@ WalkDecoder::Visits WalkDecoder::decode(std::span<const std::uint8_t> walk) {
         pending |= has_child << level;
         slot = has_child ? child : slot;
         level += static_cast<int>(has_child);
-        position += static_cast<std::uint64_t>(steps) + has_child;
+        const int near_bits = steps + static_cast<int>(has_child);
+        bits <<= near_bits;
+        position += static_cast<std::uint64_t>(near_bits);
+        if (refetch) bits = bits_at(bytes, position);
 
         // Far bits: zeros up to the first one drop that many undecided levels, deepest first.
-        bits = bits_at(bytes, position);
         const int undecided = std::popcount(pending);
         const int zeros = std::countl_zero(bits);
         if (zeros >= undecided) {
@@ -77,6 +89,8 @@ WalkDecoder::Visits WalkDecoder::decode(std::span<const std::uint8_t> walk) {
             break;
         }
         position += static_cast<std::uint64_t>(zeros) + 1;
+        bits = bits << zeros << 1;
+        held -= near_bits + zeros + 1;
         const std::uint64_t parent_bit = _pdep_u64(std::uint64_t{1} << (undecided - 1 - zeros), pending);
         const int parent = std::countr_zero(parent_bit);
         pending &= parent_bit - 1;
