@@ -27,6 +27,7 @@ void write(const fs::path& path, const Image& image, const std::vector<Value>& v
     OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), 3, type);
     spec.attribute("oiio:ColorSpace", color_space);
     spec.attribute("compression", "zip");
+    spec.attribute("DateTime", "");  // else OpenImageIO writes the clock into the file
     if (!output->open(partial.string(), spec)) fail(output->geterror());
     if (!output->write_image(type, values.data())) fail(output->geterror());
     if (!output->close()) fail(output->geterror());

@@ -10,7 +10,7 @@ namespace regather::reorder {
 struct HashedConfig {
     std::uint32_t buckets = 512;
     std::uint32_t capacity = 64;  ///< Queries a bucket holds.
-    std::uint32_t cells = 64;     ///< Of the position grid, along the longest edge of the bounds.
+    std::uint32_t cells = 16;     ///< Of the position grid, along the longest edge of the bounds.
 };
 
 /// The bucket of a cell: the spatial hash of Teschner et al., "Optimized Spatial Hashing", VMV 2003.

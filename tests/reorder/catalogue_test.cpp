@@ -38,9 +38,9 @@ TEST(Catalogue, SpecTellsEveryParameterAndIsASpecAgain) {
         {"hilbert", "hilbert:bits=21"},
         {"hilbert:tile=16", "hilbert:tile=16,bits=16"},
         {"swizzle:tile=32", "swizzle:tile=32,bits=4"},
-        {"hashed", "hashed:buckets=512,capacity=64,cells=64"},
+        {"hashed", "hashed:buckets=512,capacity=64,cells=16"},
         {"direction-binned+hashed",
-         "direction-binned+hashed:tile=16,bins=16,passes=256,state=store,buckets=512,capacity=64,cells=64"},
+         "direction-binned+hashed:tile=16,bins=16,passes=256,state=store,buckets=512,capacity=64,cells=16"},
         {"kd-leaf", "kd-leaf"},
     };
     for (const auto& [given, told] : canonical) {
