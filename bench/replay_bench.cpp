@@ -1,18 +1,21 @@
 // bench/replay_bench.cpp -- is replaying walks worth it? One ordering of the same queries: searched again, and replayed.
-// The trace is made here: photons on the walls of a room, as many and as dense as `room` has at full scale; queries on the
-// same walls. Every run checks the lines, nodes or misses that it counts against the searches'.
+// The trace is made here: the scene `room` with 1 M photons, k = 100 and the queries of 45 x 45 pixels x 100 gather rays.
+// Every run checks the photons, nodes or misses that it counts against the searches'.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <numeric>
+#include <limits>
 #include <vector>
 
 #include "cachesim/cache.h"
 #include "cachesim/lines.h"
+#include "capture/photon_pass.h"
+#include "capture/query_pass.h"
 #include "replay/replay.h"
 #include "reorder/catalogue.h"
+#include "scenes/loader.h"
 #include "spatial/nearest.h"
 #include "spatial/recording.h"
 #include "spatial/walk.h"
@@ -20,50 +23,32 @@
 namespace {
 
 using namespace regather;
-using trace::Vec3;
 
-constexpr std::uint32_t photon_count = 1'000'000, query_count = 200'000, k = 100;
+constexpr std::uint32_t photon_count = 1'000'000, k = 100;
 
-class Numbers {
-public:
-    explicit Numbers(std::uint64_t seed) : state_(seed) {}
-    float uniform() {
-        state_ = state_ * 6364136223846793005u + 1442695040888963407u;
-        return static_cast<float>(state_ >> 40) * 0x1p-24f;
-    }
-
-private:
-    std::uint64_t state_;
-};
-
-/// On the six faces of a box of 10 x 8 x 3.
-Vec3 on_walls(Numbers& numbers) {
-    const Vec3 size{10, 8, 3};
-    Vec3 p{numbers.uniform() * size.x, numbers.uniform() * size.y, numbers.uniform() * size.z};
-    const float pick = numbers.uniform() * (80 + 30 + 24);
-    const int axis = pick < 80 ? 2 : pick < 110 ? 1 : 0;
-    p[axis] = numbers.uniform() < 0.5f ? 0.0f : size[axis];
-    return p;
-}
-
+/// The scene `room` with the paper's photons and gathers, at 45 x 45 pixels.
 struct Room {
     std::vector<trace::Photon> heap;
-    std::vector<Vec3> queries;
+    capture::Queries queries;
     spatial::Recording recording;
 
-    Room() : queries(query_count) {
-        Numbers numbers(1);
-        std::vector<trace::Photon> photons(photon_count);
-        for (trace::Photon& photon : photons) photon.position = on_walls(numbers);
-        heap = spatial::left_balanced(photons);
-        for (Vec3& query : queries) query = on_walls(numbers);
-        recording = spatial::record_walks(spatial::PhotonKd(heap), queries, k, std::numeric_limits<float>::infinity());
+    Room() {
+        const scenes::Scene scene = scenes::load_scene("room");
+        const capture::RayCaster caster(scene);
+        heap = spatial::left_balanced(capture::trace_photons(scene, caster, {.photons = photon_count, .seed = 1}).photons);
+        capture::PixelWork work;
+        const capture::QueryConfig config{.width = 45, .height = 45, .gather_rays = 100, .shadow_rays = 0,
+                                          .max_specular = 16, .seed = 1};
+        capture::QueryPass(scene, caster, config, false).run(0, 45 * 45, work);
+        queries = std::move(work.queries);
+        recording = spatial::record_walks(spatial::PhotonKd(heap), queries.position, k,
+                                          std::numeric_limits<float>::infinity());
     }
     std::vector<std::uint32_t> permutation(const char* ordering) const {
-        std::vector<std::uint32_t> pixel(query_count);
-        std::iota(pixel.begin(), pixel.end(), 0u);
-        const reorder::Workload work{.position = queries, .direction = {}, .pixel = pixel, .leaf_kd = {}, .leaf_bvh = {},
-                                     .bounds = trace::bounds_of(queries), .image_width = query_count, .image_height = 1};
+        const reorder::Workload work{.position = queries.position, .direction = queries.direction,
+                                     .pixel = queries.pixel, .leaf_kd = {}, .leaf_bvh = {},
+                                     .bounds = trace::bounds_of(queries.position), .image_width = 45,
+                                     .image_height = 45};
         return reorder::order(*reorder::make_ordering(ordering), work).permutation;
     }
 };
@@ -76,7 +61,7 @@ const Room& room() {
 constexpr std::array<const char*, 2> orderings{"naive", "hilbert"};
 
 void rate(benchmark::State& state) {
-    state.SetItemsProcessed(state.iterations() * query_count);
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(room().queries.size()));
     state.SetLabel(orderings[static_cast<std::size_t>(state.range(0))]);
 }
 
@@ -100,7 +85,7 @@ void search_again(benchmark::State& state) {
     for (auto unused : state) {
         std::uint64_t count = 0;
         for (const std::uint32_t q : order) {
-            spatial::nearest(tree, room().queries[q], found);
+            spatial::nearest(tree, room().queries.position[q], found);
             count += found.size();
         }
         if (count != room().recording.found_photons) state.SkipWithError("found another number of photons");
@@ -119,7 +104,7 @@ void search_again_and_simulate(benchmark::State& state) {
     for (auto unused : state) {
         Simulate simulate;
         for (const std::uint32_t q : order) {
-            spatial::nearest(tree, room().queries[q], found, simulate);
+            spatial::nearest(tree, room().queries.position[q], found, simulate);
             simulate.drain();
         }
         if (simulate.cache.total().misses != expected) state.SkipWithError("another number of misses than the replay");

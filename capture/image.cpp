@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 
 #include "trace/error.h"
 
@@ -20,7 +21,7 @@ void write(const fs::path& path, const Image& image, const std::vector<Value>& v
     fs::path partial = path.parent_path() / fmt::format("partial-{}", path.filename().string());
     const auto fail = [&](const std::string& what) {
         fs::remove(partial);
-        throw trace::DataError(fmt::format("{}: cannot write: {}", path.string(), what));
+        throw std::runtime_error(fmt::format("{}: cannot write: {}", path.string(), what));
     };
     const auto output = OIIO::ImageOutput::create(path.string());
     if (!output) fail(OIIO::geterror());

@@ -14,7 +14,8 @@ struct Image {
     std::vector<trace::Vec3> pixels;
 };
 
-/// 32-bit float EXR; written beside and renamed, so that no half image has this name. Throws trace::DataError.
+/// 32-bit float EXR; written beside and renamed, so that no half image has this name. Throws
+/// std::runtime_error.
 void write_exr(const std::filesystem::path& path, const Image& image);
 
 /// 8-bit sRGB view: radiance times `exposure` through the curve 1 - exp(-x).

@@ -1,7 +1,6 @@
 // regather cachesim -- a user's address trace through LRU caches: every size x line x ways in one pass over
 // the file.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
@@ -20,6 +19,7 @@
 #include "cli/commands.h"
 #include "cli/size.h"
 #include "trace/error.h"
+#include "trace/file.h"
 
 namespace regather::cli {
 
@@ -92,24 +92,6 @@ void write_all(std::FILE* file, std::string_view text, const std::string& name) 
         throw std::runtime_error(fmt::format("{}: cannot write: {}", name, std::strerror(errno)));
 }
 
-/// All of it under its name, or nothing: written beside the file and renamed.
-void write_file(const std::filesystem::path& name, std::string_view text) {
-    std::filesystem::path part = name;
-    part += fmt::format(".part-{}", ::getpid());
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(part.c_str(), "wbx"), std::fclose);
-    if (!file)
-        throw std::runtime_error(fmt::format("{}: cannot create: {}", part.string(), std::strerror(errno)));
-    try {
-        write_all(file.get(), text, part.string());
-        file.reset();
-        std::filesystem::rename(part, name);
-    } catch (...) {
-        std::error_code ignored;
-        std::filesystem::remove(part, ignored);
-        throw;
-    }
-}
-
 void run(const Options& options) {
     const std::vector<cachesim::CacheConfig> configs = combinations(options);
     if (!options.csv.empty() && !options.force && std::filesystem::exists(options.csv))
@@ -125,7 +107,7 @@ void run(const Options& options) {
     if (options.csv.empty())
         write_all(stdout, rows, "stdout");
     else
-        write_file(options.csv, rows);
+        trace::write_file(options.csv, rows);
 }
 
 }  // namespace

@@ -40,6 +40,10 @@ CaptureResult run(const CaptureJob& job) {
         if (trace.info().parameters != capture::parameters(scene, config) || !has_columns(trace, config.columns))
             throw trace::UsageError(fmt::format("{}: holds a trace with other parameters or columns than asked for; give "
                                                 "another folder, or --force to capture again", trace_folder.string()));
+        for (const char* image : {"image.exr", "image.png"})
+            if (!fs::exists(job.folder / image))
+                throw trace::UsageError(fmt::format("{}: holds the trace, but no {}; --force captures again",
+                                                    job.folder.string(), image));
         return {fmt::format("kept the finished capture in {}\n{}", job.folder.string(), figures(trace.info())), true};
     }
 

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -48,6 +49,8 @@ capture::CaptureConfig CaptureOptions::config() const {
                      .max_specular = 16, .seed = seed};
     config.photon = {.photons = photons, .seed = seed};
     config.gather.k = k;
+    if (!std::isfinite(radius))
+        throw trace::UsageError(fmt::format("--radius: found {}, expected a finite number; 0: unlimited", radius));
     if (radius > 0) config.gather.radius = static_cast<float>(radius);
     config.columns.rays = rays;
     const std::shared_ptr<reorder::Ordering> ordering = reorder::make_ordering(gather_order);

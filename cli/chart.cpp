@@ -53,7 +53,7 @@ void run(const Request& request) {
         any |= !drawn.files.empty();
         if (drawn.skipped.empty()) continue;
         const std::string line = fmt::format("{}: not drawn: {}", drawn.kind, drawn.skipped);
-        fmt::print(stderr, "{}\n", line);
+        fmt::print("{}\n", line);
         if (skipped.empty()) skipped = line;
     }
     // What was asked for by name must be there; of "every kind that applies" at least one.

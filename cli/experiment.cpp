@@ -9,6 +9,7 @@
 #include "cli/keys.h"
 #include "cli/measurement.h"
 #include "cli/size.h"
+#include "scenes/loader.h"
 #include "trace/error.h"
 
 namespace regather::cli {
@@ -75,9 +76,14 @@ Experiment load_experiment(const std::filesystem::path& path) {
     // A scene file is named relative to the experiment that uses it.
     if (experiment.scene.ends_with(".json") && std::filesystem::path(experiment.scene).is_relative())
         experiment.scene = (path.parent_path() / experiment.scene).string();
+    at(in, "scene", [&] { return scenes::load_scene(experiment.scene); });
     if (in.has("capture")) experiment.capture = capture_options(root["capture"], path.string());
-    if (in.has("onchip"))
-        experiment.onchip_bytes = at(in, "onchip", [&] { return parse_size(in.list("onchip", {}).front()); });
+    at(in, "capture", [&] { return experiment.capture.config(); });
+    if (in.has("onchip")) {
+        const std::vector<std::string> sizes = in.list("onchip", {});
+        if (sizes.size() != 1) in.refuse("onchip", root["onchip"].dump(), "one size");
+        experiment.onchip_bytes = at(in, "onchip", [&] { return parse_size(sizes.front()); });
+    }
     const std::vector<cachesim::CacheConfig> caches =
         in.has("caches") ? parse_caches(in) : std::vector<cachesim::CacheConfig>{cachesim::CacheConfig{}};
 

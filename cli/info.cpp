@@ -15,8 +15,18 @@
 namespace regather::cli {
 namespace {
 
+/// Reads everything. Throws trace::DataError for what is damaged.
+void check(trace::TraceReader& trace) {
+    trace.verify_all();
+    const spatial::PhotonKd tree(trace.column<trace::Photon>("photon"));
+    if (const std::uint32_t node = spatial::first_disorder(tree); node != tree.size())
+        throw trace::DataError(fmt::format("{}: node {}: found a photon on the wrong side of a split, expected a "
+                                           "left-balanced kd-tree", (trace.folder() / "photon.npy").string(), node));
+}
+
 void print_trace(const std::filesystem::path& folder, bool verify) {
     trace::TraceReader trace(folder);
+    if (verify) check(trace);
     const trace::TraceInfo& info = trace.info();
     const double queries = static_cast<double>(std::max<std::uint64_t>(info.queries, 1));
     fmt::print("trace      {}\nscene      {}\nimage      {} x {} pixels\nseed       {}\nstructure  {}, {} photons, k = {}\n",
@@ -34,13 +44,7 @@ void print_trace(const std::filesystem::path& folder, bool verify) {
                    static_cast<double>(rows * entry.type().row_bytes) / 1e6, entry.type().readable, entry.unit);
     }
     for (const trace::LeftOut& part : info.left_out) fmt::print("left out   {}: {}\n", part.what, part.why);
-    if (!verify) return;
-    trace.verify_all();
-    const spatial::PhotonKd tree(trace.column<trace::Photon>("photon"));
-    if (const std::uint32_t node = spatial::first_disorder(tree); node != tree.size())
-        throw trace::DataError(fmt::format("{}: node {}: found a photon on the wrong side of a split, expected a "
-                                           "left-balanced kd-tree", (folder / "photon.npy").string(), node));
-    fmt::print("verified   every column's checksum, and the order of the tree\n");
+    if (verify) fmt::print("verified   every column's checksum, and the order of the tree\n");
 }
 
 }  // namespace

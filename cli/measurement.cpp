@@ -39,6 +39,11 @@ std::string cache_text(const cachesim::CacheConfig& cache) {
 
 Measurement::Measurement(trace::TraceReader& trace, const reorder::Reads& reads, std::uint64_t onchip_bytes)
     : trace_(trace), walks_(trace), onchip_bytes_(onchip_bytes) {
+    const trace::TraceInfo& info = trace.info();
+    if (info.image_width == 0 || info.image_height == 0)
+        throw trace::DataError(fmt::format("{}: {}: found 0, expected at least one pixel",
+                                           (trace.folder() / "trace.json").string(),
+                                           info.image_width == 0 ? "image_width" : "image_height"));
     work_.position = trace.column<trace::Vec3>("query_position");
     work_.pixel = trace.column<std::uint32_t>("query_pixel");
     if (reads.direction) work_.direction = trace.column<trace::Vec3>("query_direction");

@@ -16,6 +16,21 @@
 #include "trace/error.h"
 
 namespace regather::cli {
+namespace {
+
+/// Looks at the provenance beside the CSV, too: somebody's X.json is not ours to replace.
+void refuse_to_overwrite(const std::filesystem::path& csv, bool force) {
+    const std::filesystem::path json = results::provenance_path(csv);
+    if (json == csv)
+        throw trace::UsageError(fmt::format("--csv: found {}, expected another ending than .json, which the provenance "
+                                            "beside it bears", csv.string()));
+    if (force) return;
+    for (const std::filesystem::path& file : {csv, json})
+        if (std::filesystem::exists(file))
+            throw trace::UsageError(fmt::format("{}: exists; --force overwrites it", file.string()));
+}
+
+}  // namespace
 
 void add_replay(CLI::App& app) {
     struct Options {
@@ -41,8 +56,7 @@ void add_replay(CLI::App& app) {
                     "  regather replay out/room/trace --order naive hilbert hilbert:tile=16 --cache 128K:128:8 --csv rows.csv\n"
                     "  regather replay out/room/trace --reorderer ./libmine.so --cache 16K:64:full 1M:64:16");
     command->callback([options] {
-        if (!options->csv.empty() && !options->force && std::filesystem::exists(options->csv))
-            throw trace::UsageError(fmt::format("{}: exists; --force overwrites it", options->csv.string()));
+        if (!options->csv.empty()) refuse_to_overwrite(options->csv, options->force);
         std::vector<reorder::ParsedOrdering> orderings;
         reorder::Reads reads;
         for (const std::string& spec : options->orders) {

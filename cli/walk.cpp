@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -48,7 +49,23 @@ void copy(trace::TraceWriter& writer, const char* name, const OptionalColumn<T>&
     if (column.exists()) writer.column(name).append(column.rows());
 }
 
+/// Without a column each query is a pixel of its own.
+std::uint32_t greatest_pixel(const fs::path& columns, const OptionalColumn<std::uint32_t>& pixel, std::uint64_t queries) {
+    constexpr std::uint32_t most = std::numeric_limits<std::uint32_t>::max() - 1;  // so that an image width is one more
+    if (!pixel.exists()) return queries == 0 ? 0 : static_cast<std::uint32_t>(queries - 1);
+    std::uint32_t last = 0;
+    for (std::size_t i = 0; i < pixel.rows().size(); ++i) {
+        last = std::max(last, pixel.rows()[i]);
+        if (last > most)
+            throw trace::DataError(fmt::format("{}: row {}: found {}, expected at most {}",
+                                               (columns / "query_pixel.npy").string(), i, last, most));
+    }
+    return last;
+}
+
 void make_trace(const Options& options) {
+    if (!std::isfinite(options.radius))
+        throw trace::UsageError(fmt::format("--radius: found {}, expected a finite number; 0: unlimited", options.radius));
     const trace::MappedColumn photon_positions(options.columns / "photon_position.npy", trace::column_type<Vec3>());
     const trace::MappedColumn positions(options.columns / "query_position.npy", trace::column_type<Vec3>());
     const std::uint64_t queries = positions.size();
@@ -57,14 +74,22 @@ void make_trace(const Options& options) {
     const OptionalColumn<Vec3> direction(options.columns, "query_direction", queries);
     const OptionalColumn<std::uint32_t> leaf_kd(options.columns, "query_leaf_kd", queries);
     const OptionalColumn<std::uint32_t> leaf_bvh(options.columns, "query_leaf_bvh", queries);
-    if (queries > std::numeric_limits<std::uint32_t>::max())
-        throw trace::DataError(fmt::format("{}: found {} rows, expected fewer than 2^32",
+    if (queries >= std::numeric_limits<std::uint32_t>::max())
+        throw trace::DataError(fmt::format("{}: found {} rows, expected fewer than 2^32 - 1",
                                            (options.columns / "query_position.npy").string(), queries));
 
-    trace::TraceWriter writer(options.folder, options.force);
     std::vector<trace::Photon> photons(photon_positions.size());
-    for (std::size_t i = 0; i < photons.size(); ++i) photons[i].position = photon_positions.rows<Vec3>()[i];
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        photons[i].position = photon_positions.rows<Vec3>()[i];
+        if (!trace::is_finite(photons[i].position))
+            throw trace::DataError(fmt::format("{}: row {}: found {} {} {}, expected finite numbers",
+                                               (options.columns / "photon_position.npy").string(), i,
+                                               photons[i].position.x, photons[i].position.y, photons[i].position.z));
+    }
+    const std::uint32_t last_pixel = greatest_pixel(options.columns, pixel, queries);
     const std::vector<trace::Photon> heap = spatial::left_balanced(photons);
+
+    trace::TraceWriter writer(options.folder, options.force);  // from here on an earlier trace is gone
     writer.column("photon").append(std::span<const trace::Photon>(heap));
     writer.column("query_position").append(positions.rows<Vec3>());
     copy(writer, "query_weight", weight);
@@ -73,15 +98,12 @@ void make_trace(const Options& options) {
     copy(writer, "query_leaf_bvh", leaf_bvh);
 
     trace::TraceInfo info;
-    std::uint32_t last_pixel = 0;
     if (pixel.exists()) {
         copy(writer, "query_pixel", pixel);
-        for (const std::uint32_t p : pixel.rows()) last_pixel = std::max(last_pixel, p);
     } else {
         std::vector<std::uint32_t> own(queries);
         for (std::size_t i = 0; i < own.size(); ++i) own[i] = static_cast<std::uint32_t>(i);
         writer.column("query_pixel").append(std::span<const std::uint32_t>(own));
-        last_pixel = own.empty() ? 0 : own.back();
     }
     info.image_width = options.width > 0 ? options.width : last_pixel + 1;
     info.image_height = last_pixel / info.image_width + 1;

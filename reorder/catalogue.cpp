@@ -14,6 +14,7 @@
 #include "reorder/shared_library.h"
 #include "reorder/tiled.h"
 #include "trace/error.h"
+#include "trace/word.h"
 
 namespace regather::reorder {
 namespace {
@@ -146,7 +147,7 @@ ParsedOrdering parse_ordering(std::string_view spec) {
         std::vector<std::string_view> names;
         for (const Entry& known : entries) names.push_back(known.name);
         throw trace::UsageError(fmt::format("unknown ordering \"{}\"; nearest: {}; known: {}", name,
-                                            nearest(name, names), listed(names)));
+                                            trace::nearest_words(name, names).front(), trace::listed(names)));
     }
     Parameters parameters(name, entry->parameters, text);
     ParsedOrdering parsed;

@@ -6,29 +6,13 @@
 #include <cassert>
 #include <charconv>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "trace/error.h"
+#include "trace/word.h"
 
 namespace regather::reorder {
 namespace {
-
-/// Letters to insert, delete or replace (Levenshtein).
-std::size_t distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i] != b[j]);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-        }
-    }
-    return row.back();
-}
 
 std::vector<std::string_view> names_of(std::span<const Parameter> known) {
     std::vector<std::string_view> names;
@@ -37,21 +21,6 @@ std::vector<std::string_view> names_of(std::span<const Parameter> known) {
 }
 
 }  // namespace
-
-std::string_view nearest(std::string_view word, std::span<const std::string_view> names) {
-    return *std::min_element(names.begin(), names.end(), [word](std::string_view a, std::string_view b) {
-        return distance(word, a) < distance(word, b);
-    });
-}
-
-std::string listed(std::span<const std::string_view> names) {
-    std::string list;
-    for (const std::string_view name : names) {
-        if (!list.empty()) list += ", ";
-        list += name;
-    }
-    return list;
-}
 
 Parameters::Parameters(std::string_view ordering, std::span<const Parameter> known, std::string_view text)
     : ordering_(ordering), known_(known) {
@@ -70,7 +39,7 @@ Parameters::Parameters(std::string_view ordering, std::span<const Parameter> kno
         const auto found = std::find(names.begin(), names.end(), name);
         if (found == names.end())
             throw trace::UsageError(fmt::format("{}: unknown parameter \"{}\"; nearest: {}; known: {}",
-                                                ordering, name, nearest(name, names), listed(names)));
+                                                ordering, name, trace::nearest_words(name, names).front(), trace::listed(names)));
         const auto index = static_cast<std::size_t>(found - names.begin());
         if (set[index])
             throw trace::UsageError(fmt::format("{}: parameter {} is given twice", ordering, name));
@@ -134,8 +103,8 @@ std::size_t Parameters::choice(std::string_view name, std::initializer_list<std:
     const auto found = std::find(words.begin(), words.end(), std::string_view(value(name)));
     if (found == words.end())
         throw trace::UsageError(fmt::format("{}: {} is \"{}\"; nearest: {}; known: {}", ordering_, name,
-                                            value(name), nearest(value(name), {words.begin(), words.size()}),
-                                            listed({words.begin(), words.size()})));
+                                            value(name), trace::nearest_words(value(name), {words.begin(), words.size()}).front(),
+                                            trace::listed({words.begin(), words.size()})));
     return static_cast<std::size_t>(found - words.begin());
 }
 

@@ -16,12 +16,6 @@ struct Parameter {
     std::string_view help;
 };
 
-/// The one of `names` with the fewest letters to change; names is not empty.
-std::string_view nearest(std::string_view word, std::span<const std::string_view> names);
-
-/// "naive, random, tiled"
-std::string listed(std::span<const std::string_view> names);
-
 class Parameters {
 public:
     /// Throws trace::UsageError (unknown, twice, without value) that names the nearest and lists the known

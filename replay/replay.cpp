@@ -33,14 +33,20 @@ constexpr std::uint64_t prefetch_table = 32, prefetch_walk = 12, progress_querie
 class LineStream {
 public:
     LineStream(const HeapLayout& layout, std::uint32_t line_bytes)
-        : layout_(layout), shift_(std::countr_zero(line_bytes)), lines_(capacity) {}
+        : layout_(layout),
+          shift_(std::countr_zero(line_bytes)),
+          recent_(most_sets, std::numeric_limits<std::uint64_t>::max()),
+          lines_(capacity) {}
 
-    void add_cache(cachesim::LruCache& cache) { caches_.push_back(&cache); }
+    void add_cache(cachesim::LruCache& cache) {
+        caches_.push_back(&cache);
+        recent_.resize(std::min<std::size_t>(recent_.size(), cache.config().sets()));
+    }
     std::uint32_t line_bytes() const { return std::uint32_t{1} << shift_; }
 
-    /// Lines that repeat the one before are counted but not passed on: they hit in every LRU cache and change nothing.
+    /// A line that is the last one used of its set hits in an LRU cache and changes nothing there; nor in one of more sets,
+    /// which split that set. Such accesses are counted but not passed on.
     void append(std::span<const std::uint32_t> slots) {
-        constexpr std::size_t part = 256;
         for (; slots.size() > part; slots = slots.subspan(part)) append_part(slots.first(part));
         append_part(slots);
     }
@@ -55,31 +61,36 @@ private:
     void append_part(std::span<const std::uint32_t> slots) {
         if (fill_ + slots.size() * most_lines() > lines_.size()) drain();
         cachesim::Line* to = lines_.data() + fill_;
-        std::uint64_t previous = previous_, accesses = 0;
+        std::uint64_t* const recent = recent_.data();
+        const std::uint64_t set_mask = recent_.size() - 1;
+        std::uint64_t accesses = 0;
+        const auto pass = [&](std::uint64_t line, bool wanted) {
+            std::uint64_t& last_used = recent[line & set_mask];
+            *to = cachesim::Line{line};
+            to += static_cast<int>(wanted) & static_cast<int>(last_used != line);  // else overwritten
+            last_used = line;
+        };
         for (const std::uint32_t slot : slots) {
             const std::uint64_t address = layout_.address(slot);
             const std::uint64_t first = address >> shift_, last = (address + layout_.used_bytes - 1) >> shift_;
             accesses += last - first + 1;
-            *to = cachesim::Line{first};
-            to += first != previous;  // else overwritten
+            pass(first, true);
             if (last - first <= 1) {
-                *to = cachesim::Line{last};
-                to += last - first;
+                pass(last, last != first);
             } else {
-                for (std::uint64_t line = first + 1; line <= last; ++line) *to++ = cachesim::Line{line};
+                for (std::uint64_t line = first + 1; line <= last; ++line) pass(line, true);
             }
-            previous = last;
         }
-        previous_ = previous;
         accesses_ += accesses;
         fill_ = static_cast<std::size_t>(to - lines_.data());
     }
-    static constexpr std::size_t capacity = 16384;
+    static constexpr std::size_t part = 256, capacity = 16384, most_sets = 4096;
     std::size_t most_lines() const { return layout_.used_bytes / line_bytes() + 2; }
     const HeapLayout layout_;
     int shift_;
     std::size_t fill_ = 0;
-    std::uint64_t previous_ = std::numeric_limits<std::uint64_t>::max(), accesses_ = 0;
+    std::uint64_t accesses_ = 0;
+    std::vector<std::uint64_t> recent_;  // by set of the cache with the fewest: the line last used
     std::vector<cachesim::Line> lines_;
     std::vector<cachesim::LruCache*> caches_;
 };

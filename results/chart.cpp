@@ -6,11 +6,11 @@
 #include <cmath>
 #include <set>
 
-#include "results/file.h"
 #include "results/gnuplot.h"
 #include "results/plot.h"
 #include "results/series.h"
 #include "trace/error.h"
+#include "trace/file.h"
 
 namespace regather::results {
 namespace {
@@ -269,7 +269,7 @@ std::vector<Drawn> write_charts(const std::filesystem::path& folder, std::span<c
         for (const auto& [picture, ending] :
              {std::pair{Picture::svg, "svg"}, std::pair{Picture::png, "png"}}) {
             drawn.files.push_back(folder / fmt::format("{}.{}", kind->name, ending));
-            write_file(drawn.files.back(), render(chart, picture));
+            trace::write_file(drawn.files.back(), render(chart, picture));
         }
     }
     return out;

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "results/file.h"
 #include "trace/error.h"
+#include "trace/file.h"
 
 namespace regather::results {
 namespace {
@@ -260,11 +260,11 @@ std::vector<Row> from_csv(std::string_view text, std::string_view file) {
 }
 
 void write_csv(const std::filesystem::path& path, std::span<const Row> rows) {
-    write_file(path, to_csv(rows));
+    trace::write_file(path, to_csv(rows));
 }
 
 std::vector<Row> read_csv(const std::filesystem::path& path) {
-    return from_csv(read_file(path), path.string());
+    return from_csv(trace::read_file(path), path.string());
 }
 
 }  // namespace regather::results

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "trace/error.h"
+#include "trace/word.h"
 
 namespace regather::scenes {
 
@@ -125,8 +126,8 @@ void Node::check_object(const Kind& kind, std::string_view noun) const {
         if (std::find(names.begin(), names.end(), name) != names.end()) continue;
         Node(value, joined(path_, name), *file_)
             .fail("unknown key " + in_quotes(name),
-                  fmt::format("{} (keys of a {}{}{}: {})", alternatives(nearest(name, names)), kind.name,
-                              noun.empty() ? "" : " ", noun, listed(names)));
+                  fmt::format("{} (keys of a {}{}{}: {})", trace::alternatives(trace::nearest_words(name, names)), kind.name,
+                              noun.empty() ? "" : " ", noun, trace::listed(names)));
     }
     for (const Key& key : kind.keys)
         if (key.required && !has(key.name))
@@ -146,17 +147,17 @@ const Kind& Node::check_object(std::span<const Kind> kinds, std::string_view dis
                                  [&](const Key& k) { return k.name == key.name; }))
                     any.keys.push_back({key.name, false, key.expected});
         check_object(any);
-        Node(*value_, joined(path_, discriminator), *file_).fail("nothing", alternatives(names));
+        Node(*value_, joined(path_, discriminator), *file_).fail("nothing", trace::alternatives(names));
     }
     const Node type = (*this)[discriminator];
-    const std::string& name = type.text(alternatives(names));
+    const std::string& name = type.text(trace::alternatives(names));
     for (const Kind& kind : kinds)
         if (kind.name == name) {
             check_object(kind, noun);
             return kind;
         }
     type.fail(in_quotes(name),
-              fmt::format("{} ({}s: {})", alternatives(nearest(name, names)), noun, listed(names)));
+              fmt::format("{} ({}s: {})", trace::alternatives(trace::nearest_words(name, names)), noun, trace::listed(names)));
 }
 
 bool Node::has(std::string_view key) const {

@@ -102,49 +102,4 @@ const Key& Kind::key(std::string_view key_name) const {
     throw std::logic_error("no key " + std::string(key_name) + " in the table of " + std::string(name));
 }
 
-std::vector<std::string_view> nearest(std::string_view word, std::span<const std::string_view> words) {
-    word = word.substr(0, 64);  // No key is that long: the tail tells nothing.
-    std::vector<std::string_view> best;
-    std::size_t best_distance = 0;
-    for (const std::string_view candidate : words) {
-        std::vector<std::size_t> row(candidate.size() + 1);
-        for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-        for (std::size_t i = 1; i <= word.size(); ++i) {
-            std::size_t diagonal = row[0];
-            row[0] = i;
-            for (std::size_t j = 1; j < row.size(); ++j) {
-                const std::size_t substituted = diagonal + (word[i - 1] == candidate[j - 1] ? 0 : 1);
-                diagonal = row[j];
-                row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-            }
-        }
-        const std::size_t distance = row.back();
-        if (!best.empty() && distance > best_distance) continue;
-        if (!best.empty() && distance < best_distance) best.clear();
-        best_distance = distance;
-        best.push_back(candidate);
-    }
-    return best;
-}
-
-std::string alternatives(std::span<const std::string_view> words) {
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
-        text += '"';
-        text += words[i];
-        text += '"';
-    }
-    return text;
-}
-
-std::string listed(std::span<const std::string_view> words) {
-    std::string text;
-    for (const std::string_view word : words) {
-        if (!text.empty()) text += ", ";
-        text += word;
-    }
-    return text;
-}
-
 }  // namespace regather::scenes

@@ -29,14 +29,4 @@ std::span<const Kind> shape_kinds();
 /// Told apart by their key "kind": diffuse, glossy, mirror, dielectric.
 std::span<const Kind> material_kinds();
 
-/// The words closest to `word` by edit distance (insertions, deletions, substitutions; Levenshtein 1966);
-/// several when they tie, in their given order.
-std::vector<std::string_view> nearest(std::string_view word, std::span<const std::string_view> words);
-
-/// `"a"`, `"a" or "b"`, `"a", "b" or "c"`.
-std::string alternatives(std::span<const std::string_view> words);
-
-/// `a, b, c`.
-std::string listed(std::span<const std::string_view> words);
-
 }  // namespace regather::scenes

@@ -14,6 +14,7 @@
 #include "scenes/mesh.h"
 #include "scenes/tessellation.h"
 #include "trace/error.h"
+#include "trace/word.h"
 
 namespace regather::scenes {
 
@@ -140,7 +141,7 @@ private:
         std::vector<std::string_view> names;
         for (const auto& [known, index] : materials_) names.push_back(known);
         if (names.empty()) node["material"].fail(in_quotes(name), "a material, and the scene has none");
-        node["material"].fail("unknown material " + in_quotes(name), alternatives(nearest(name, names)));
+        node["material"].fail("unknown material " + in_quotes(name), trace::alternatives(trace::nearest_words(name, names)));
     }
 
     void read_shape(const Node& node) {
@@ -311,10 +312,10 @@ Scene load_scene(std::string_view name_or_path) {
     if (!std::filesystem::exists(status)) {
         if (file.find('/') == std::string::npos && !path.has_extension())
             throw UsageError(fmt::format("scene: found {}, expected {} or a JSON file (embedded scenes: {})",
-                                         in_quotes(file), alternatives(nearest(file, names)), listed(names)));
+                                         in_quotes(file), trace::alternatives(trace::nearest_words(file, names)), trace::listed(names)));
         throw DataError(
             fmt::format("{}: found no file, expected a JSON scene or one of the embedded scenes {}", file,
-                        listed(names)));
+                        trace::listed(names)));
     }
     if (!std::filesystem::is_regular_file(status))
         throw DataError(fmt::format("{}: found no regular file, expected a JSON scene", file));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenes/keys.h"
+#include "trace/word.h"
 
 namespace regather::scenes {
 
@@ -31,7 +32,7 @@ Use use_of(const Scene& scene, const std::vector<std::uint64_t>& triangles_of_ma
 std::string describe(const Use& use, std::string_view kinds) {
     return fmt::format("{} of {} ({}).",
                        use.triangles == 1 ? "1 triangle is" : fmt::format("{} triangles are", use.triangles),
-                       kinds, listed(use.materials));
+                       kinds, trace::listed(use.materials));
 }
 
 bool is_lit_from_an_area(const Scene& scene) {

@@ -74,25 +74,29 @@ enum class WalkFault : std::uint8_t { none, ends_early, bytes_left_over, enters_
 
 /// Decodes walks over a left-balanced tree. One thread at a time.
 ///
-/// Every node above the last two levels has two children, so a descent from a node is a run of near bits whose length
-/// is known: it is read at once, and the nodes are prefixes of one number. The far children that are not yet decided are
-/// a set of levels, and a run of zero far bits drops as many of them. So the work is by descent, not by node, and has
-/// no branch that depends on the bits.
+/// The tree is cut at the third level from below. Above it every node has two children, so a descent is a run of near bits
+/// whose length is known: it is read at once, and the nodes are prefixes of one number; the far children that are not
+/// yet decided are a set of levels, and a run of zero far bits drops as many of them. Below it are subtrees of seven
+/// nodes, or three where the deepest level has ended: the next six, or two, bits look their visits up in a table. So a
+/// step takes about six nodes, and no branch of it depends on the bits.
 class WalkDecoder {
 public:
     explicit WalkDecoder(std::uint32_t photons);
 
     struct Visits {
-        WalkFault fault;
+        WalkFault fault = WalkFault::none;
         std::span<const std::uint32_t> slots;  ///< Visited nodes in order, counted from 1; up to the fault.
     };
     /// The result lives until the next call.
     Visits decode(std::span<const std::uint8_t> walk);
 
 private:
+    struct Cursor;
+    void subtree(Cursor& cursor, std::uint64_t slot);
+
     std::uint32_t photons_;
-    int deepest_;                         // level of the last node; the root's is 0
-    std::vector<std::uint8_t> padded_;    // the walk, and zeros
+    int cut_;                           // level of the subtrees' roots; below 0 in a tree of fewer than four nodes
+    std::vector<std::uint8_t> padded_;  // the walk, and zeros
     std::vector<std::uint32_t> visited_;
 };
 

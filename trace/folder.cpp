@@ -1,16 +1,13 @@
 #include "trace/folder.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 #include <xxhash.h>
 
 #include <array>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
-#include <fstream>
 #include <set>
+
+#include "trace/file.h"
 
 namespace regather::trace {
 namespace {
@@ -99,33 +96,11 @@ const ColumnEntry& column_entry(std::string_view name) {
     throw UsageError(fmt::format("no trace column is called '{}'", name));
 }
 
-void write_atomically(const fs::path& path, std::string_view text) {
-    fs::path partial = path;
-    partial += ".partial";
-    const auto fail = [&](const char* what) {
-        const int error = errno;
-        ::unlink(partial.c_str());
-        throw DataError(fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(error)));
-    };
-    const int fd = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (fd < 0) fail("create");
-    while (!text.empty()) {
-        const ssize_t written = ::write(fd, text.data(), text.size());
-        if (written < 0) {
-            ::close(fd);
-            fail("write");
-        }
-        text.remove_prefix(static_cast<std::size_t>(written));
-    }
-    if (::fsync(fd) != 0 || ::close(fd) != 0) fail("write");
-    if (::rename(partial.c_str(), path.c_str()) != 0) fail("rename");
-}
-
 TraceWriter::TraceWriter(fs::path folder, bool force) : folder_(std::move(folder)) {
     std::error_code error;
     fs::create_directories(folder_, error);
     if (error || !fs::is_directory(folder_))
-        throw DataError(fmt::format("{}: cannot create the folder: {}", folder_.string(), error.message()));
+        throw std::runtime_error(fmt::format("{}: cannot create the folder: {}", folder_.string(), error.message()));
     std::set<std::string> known{"trace.json", "trace.json.partial"};
     for (const ColumnEntry& entry : table) known.insert(fmt::format("{}.npy", entry.name));
     for (const auto& file : fs::directory_iterator(folder_))
@@ -172,7 +147,7 @@ void TraceWriter::finish(const TraceInfo& info) {
                     {"counts", info.counts},
                     {"left_out", left_out},
                     {"columns", columns}};
-    write_atomically(folder_ / "trace.json", root.dump(2) + "\n");
+    write_file(folder_ / "trace.json", root.dump(2) + "\n");
 }
 
 TraceReader::TraceReader(fs::path folder) : folder_(std::move(folder)) {
@@ -185,8 +160,7 @@ TraceReader::TraceReader(fs::path folder) : folder_(std::move(folder)) {
     }
     json root;
     try {
-        std::ifstream stream(file);
-        root = json::parse(stream);
+        root = json::parse(read_file(file));
     } catch (const json::exception& error) {
         throw DataError(fmt::format("{}: found no valid JSON ({})", file.string(), error.what()));
     }

@@ -95,7 +95,4 @@ private:
     std::map<std::string, MappedColumn, std::less<>> open_;
 };
 
-/// Writes `text` to `path` as a whole or not at all: a file beside it, then a rename. DataError when it cannot.
-void write_atomically(const std::filesystem::path& path, std::string_view text);
-
 }  // namespace regather::trace

@@ -118,7 +118,7 @@ struct ColumnWriter::State {
     }
     void write(const void* data, std::size_t size) {
         if (std::fwrite(data, 1, size, file) != size)
-            throw DataError(fmt::format("{}: cannot write: {}", path.string(), std::strerror(errno)));
+            throw std::runtime_error(fmt::format("{}: cannot write: {}", path.string(), std::strerror(errno)));
     }
 };
 
@@ -126,7 +126,7 @@ ColumnWriter::ColumnWriter(std::filesystem::path path, const ColumnType& type)
     : state_(std::make_unique<State>(std::move(path), type)) {
     state_->file = std::fopen(state_->path.c_str(), "wb");
     if (!state_->file)
-        throw DataError(fmt::format("{}: cannot create: {}", state_->path.string(), std::strerror(errno)));
+        throw std::runtime_error(fmt::format("{}: cannot create: {}", state_->path.string(), std::strerror(errno)));
     std::setvbuf(state_->file, nullptr, _IOFBF, 1 << 20);
     state_->hash = XXH3_createState();
     XXH3_64bits_reset(state_->hash);
@@ -147,11 +147,11 @@ ColumnDigest ColumnWriter::finish() {
     const ColumnDigest digest{s.bytes / s.type.row_bytes, XXH3_64bits_digest(s.hash)};
     const std::string block = header_block(s.type, digest.rows);
     if (std::fseek(s.file, 0, SEEK_SET) != 0)
-        throw DataError(fmt::format("{}: cannot write: {}", s.path.string(), std::strerror(errno)));
+        throw std::runtime_error(fmt::format("{}: cannot write: {}", s.path.string(), std::strerror(errno)));
     s.write(block.data(), block.size());
     std::FILE* file = std::exchange(s.file, nullptr);
     if (std::fclose(file) != 0)
-        throw DataError(fmt::format("{}: cannot write: {}", s.path.string(), std::strerror(errno)));
+        throw std::runtime_error(fmt::format("{}: cannot write: {}", s.path.string(), std::strerror(errno)));
     return digest;
 }
 

@@ -35,7 +35,8 @@ struct ColumnDigest {
 };
 
 /// Appends rows; the header is completed by finish(). A file that was never finished has a row count of 0 and
-/// trailing bytes, which MappedColumn refuses. Throws DataError when the disk is full or the path cannot be written.
+/// trailing bytes, which MappedColumn refuses. Throws std::runtime_error when the disk is full or the path cannot be
+/// written.
 class ColumnWriter {
 public:
     ColumnWriter(std::filesystem::path path, const ColumnType& type);

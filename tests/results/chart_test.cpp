@@ -3,11 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "results/file.h"
 #include "results/plot.h"
 #include "tests/results/folder.h"
 #include "tests/results/rows.h"
 #include "trace/error.h"
+#include "trace/file.h"
 
 namespace regather::results {
 namespace {
@@ -166,7 +166,7 @@ TEST(Chart, EveryKindBecomesTwoPicturesWithItsLabels) {
     ASSERT_EQ(drawn.size(), 4u);
     for (const Drawn& one : drawn) {
         ASSERT_EQ(one.files.size(), 2u) << one.kind << one.skipped;
-        const std::string svg = read_file(one.files[0]), png = read_file(one.files[1]);
+        const std::string svg = trace::read_file(one.files[0]), png = trace::read_file(one.files[1]);
         EXPECT_THAT(svg, HasSubstr("<title>" + std::string(chart_kind(one.kind).title) + "</title>"));
         EXPECT_THAT(svg, HasSubstr("Direction bins"));
         EXPECT_THAT(svg, Not(HasSubstr("GNUPLOT")));
@@ -174,8 +174,8 @@ TEST(Chart, EveryKindBecomesTwoPicturesWithItsLabels) {
         EXPECT_GT(png.size(), 10000u);
     }
     EXPECT_EQ(drawn[0].files[0].filename(), "traffic-by-tile.svg");
-    EXPECT_THAT(read_file(drawn[0].files[0]), HasSubstr("tile edge [pixels]"));
-    EXPECT_THAT(read_file(drawn[0].files[0]), HasSubstr("traffic from memory to cache [GB]"));
+    EXPECT_THAT(trace::read_file(drawn[0].files[0]), HasSubstr("tile edge [pixels]"));
+    EXPECT_THAT(trace::read_file(drawn[0].files[0]), HasSubstr("traffic from memory to cache [GB]"));
 }
 
 TEST(Chart, TheSameRowsGiveTheSameBytes) {

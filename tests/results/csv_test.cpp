@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "results/file.h"
 #include "tests/results/folder.h"
 #include "trace/error.h"
+#include "trace/file.h"
 
 namespace regather::results {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "results/file.h"
 #include "tests/results/folder.h"
+#include "trace/file.h"
 
 namespace regather::results {
 namespace {
@@ -15,7 +15,7 @@ TEST(Provenance, StandsBesideItsCsvAndHoldsWhatMadeIt) {
     const Provenance provenance{
         {"/somewhere/bin/regather", "run", "a \"b\".json"}, "0.1.0", "abc123", "0011ff"};
     write_provenance(folder / "rows.csv", provenance, {{"k", 100}, {"width", 512}});
-    EXPECT_EQ(read_file(folder / "rows.json"), R"({
+    EXPECT_EQ(trace::read_file(folder / "rows.json"), R"({
   "results": "rows.csv",
   "command_line": [
     "regather",
@@ -37,7 +37,7 @@ TEST(Provenance, StandsBesideItsCsvAndHoldsWhatMadeIt) {
 TEST(Provenance, ArgumentsThatAreNoUtf8DoNotLoseTheRun) {
     const Folder folder;
     write_provenance(folder / "rows.csv", {{"regather", "\xFF"}, "", "", ""}, nullptr);
-    const auto read = nlohmann::json::parse(read_file(folder / "rows.json"));
+    const auto read = nlohmann::json::parse(trace::read_file(folder / "rows.json"));
     EXPECT_EQ(read.at("command_line").at(1), "\uFFFD");
     EXPECT_TRUE(read.at("trace_parameters").is_null());
 }

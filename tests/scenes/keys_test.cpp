@@ -20,22 +20,6 @@ std::string between(char mark, std::string_view word) {
     return fmt::format("{0}{1}{0}", mark, word);
 }
 
-using Words = std::vector<std::string_view>;
-
-TEST(Keys, NearestIsByEditDistance) {
-    const Words words{"kitten", "sitting", "radius"};
-    EXPECT_EQ(nearest("mitten", words), Words{"kitten"});
-    EXPECT_EQ(nearest("sittin", words), Words{"sitting"});
-    EXPECT_EQ(nearest("", Words{"abc", "ab"}), Words{"ab"});
-    EXPECT_EQ(nearest("edge_", Words{"corner", "edge_u", "edge_v"}), (Words{"edge_u", "edge_v"}));
-}
-
-TEST(Keys, AlternativesReadAsASentence) {
-    EXPECT_EQ(alternatives(Words{"a"}), "\"a\"");
-    EXPECT_EQ(alternatives(Words{"a", "b", "c"}), "\"a\", \"b\" or \"c\"");
-    EXPECT_EQ(listed(Words{"a", "b", "c"}), "a, b, c");
-}
-
 TEST(Keys, TheFormatsPageNamesEveryKeyAndKind) {
     const char* source = std::getenv("REGATHER_SOURCE_DIR");
     if (source == nullptr) GTEST_SKIP() << "REGATHER_SOURCE_DIR is set by ctest";

@@ -1,0 +1,92 @@
+// `regather capture`: what it makes, what it keeps, what it never destroys.
+#include "tests/cli/expect.h"
+#include "trace/folder.h"
+
+namespace regather::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+TEST(Capture, MakesImagesAndATrace) {
+    const auto files = contents(captured_box());
+    EXPECT_EQ(files.at("image.exr").substr(0, 4), "\x76\x2f\x31\x01");  // OpenEXR's magic number
+    EXPECT_EQ(files.at("image.png").substr(0, 8), "\x89PNG\r\n\x1a\n");
+    EXPECT_TRUE(files.contains("trace/trace.json"));
+    for (const auto& [name, bytes] : files) EXPECT_THAT(name, testing::Not(HasSubstr("partial")));
+    EXPECT_THAT(expect_done({"info", (captured_box() / "trace").string(), "--verify"}).out,
+                testing::AllOf(HasSubstr("16 x 16 pixels"), HasSubstr("2000 photons, k = 20"), HasSubstr("verified")));
+}
+
+TEST(Capture, TheSameIsKeptAndOthersNeedForce) {
+    const Scratch scratch;
+    const std::vector<std::string> words = small_capture(scratch / "box") + std::vector<std::string>{"--radius", "0.3"};
+    EXPECT_THAT(expect_done(words).out, HasSubstr("captured box"));
+    const auto first = contents(scratch / "box");
+    const auto written = fs::last_write_time(scratch / "box/trace/trace.json");
+    EXPECT_THAT(expect_done(words).out, HasSubstr("kept the finished capture"));
+    EXPECT_EQ(fs::last_write_time(scratch / "box/trace/trace.json"), written);
+
+    const std::vector<std::string> other = words + std::vector<std::string>{"--seed", "2"};
+    expect_refused(bad_usage, other, {"box/trace", "other parameters", "--force"});
+    EXPECT_EQ(contents(scratch / "box"), first);
+    expect_done(other + std::vector<std::string>{"--force"});
+    EXPECT_NE(content(scratch / "box/trace/trace.json"), first.at("trace/trace.json"));
+    EXPECT_NE(content(scratch / "box/image.exr"), first.at("image.exr"));
+
+    // The order of the searches changes the time, not the result.
+    expect_done(words + std::vector<std::string>{"--gather-order", "random", "--force"});
+    EXPECT_EQ(contents(scratch / "box"), first);
+}
+
+TEST(Capture, AKeptTraceWithoutItsImageIsNotCalledFinished) {
+    const Scratch scratch;
+    expect_done(small_capture(scratch / "box"));
+    fs::remove(scratch / "box/image.png");
+    expect_refused(bad_usage, small_capture(scratch / "box"), {"image.png", "--force"});
+    expect_done(small_capture(scratch / "box") + std::vector<std::string>{"--force"});
+    EXPECT_TRUE(fs::exists(scratch / "box/image.png"));
+}
+
+TEST(Capture, OtherFilesInTheTracesFolderAreSafe) {
+    const Scratch scratch;
+    fs::create_directories(scratch / "box/trace");
+    write(scratch / "box/trace/thesis.tex", "years of work");
+    expect_refused(bad_usage, small_capture(scratch / "box") + std::vector<std::string>{"--force"}, {"thesis.tex"});
+    EXPECT_EQ(contents(scratch / "box"), (std::map<std::string, std::string>{{"trace/thesis.tex", "years of work"}}));
+}
+
+TEST(Capture, AFileInTheFoldersPlaceIsAFailedRun) {
+    const Scratch scratch;
+    write(scratch / "box", "a file");
+    expect_refused(run_failed, small_capture(scratch / "box"), {"box"});
+    EXPECT_EQ(content(scratch / "box"), "a file");
+}
+
+TEST(Capture, KilledAtAnyMomentItLeavesNothingThatReplayAccepts) {
+    for (const int milliseconds : {50, 350, 450, 600, 900}) {
+        const Scratch scratch;
+        const std::string folder = (scratch / "room").string();
+        const std::vector<std::string> words{"capture", "room", "-o", folder, "--width", "64", "--height", "64", "--photons",
+                                             "50000", "--gather-rays", "40"};
+        const Outcome killed = regather(words, std::chrono::milliseconds(milliseconds));
+        const std::vector<std::string> replay{"replay", folder + "/trace", "--order", "naive"};
+        if (killed.exit_code == 0) {
+            expect_done(replay);
+            continue;
+        }
+        EXPECT_EQ(killed.exit_code, -1) << killed.err;
+        if (!fs::exists(folder + "/trace/trace.json"))
+            expect_refused(bad_data, replay, {"room/trace"});
+        else
+            EXPECT_NO_THROW(trace::TraceReader(folder + "/trace").verify_all());  // killed after the last step
+        // What the interrupted one left is in nobody's way.
+        const std::vector<std::string> again{"capture", "room", "-o", folder, "--width", "8", "--height", "8", "--photons",
+                                             "500", "--gather-rays", "4", "--force"};
+        expect_done(again);
+        EXPECT_NO_THROW(trace::TraceReader(folder + "/trace").verify_all());
+    }
+}
+
+}  // namespace
+}  // namespace regather::cli

@@ -1,0 +1,223 @@
+// `regather replay`: rows for every ordering, and damaged traces.
+#include <nlohmann/json.hpp>
+
+#include "reorder/catalogue.h"
+#include "results/csv.h"
+#include "tests/cli/expect.h"
+#include "trace/folder.h"
+
+namespace regather::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr, testing::StartsWith;
+
+std::vector<std::string> every_ordering() {
+    std::vector<std::string> words{"--order"};
+    for (const reorder::Entry& entry : reorder::catalogue()) words.emplace_back(entry.name);
+    return words;
+}
+
+TEST(Replay, EveryOrderingGetsARowForEachCache) {
+    const Scratch scratch;
+    const fs::path csv = scratch / "rows.csv";
+    const std::string trace = (captured_box() / "trace").string();
+    expect_done(std::vector<std::string>{"replay", trace} + every_ordering() +
+                std::vector<std::string>{"--cache", "4K:128:8", "2K:64:full", "--csv", csv.string()});
+    EXPECT_THAT(content(csv),
+                StartsWith("scene,frame,ordering,tile,bins,structure,layout,policy,cache_bytes,line_bytes,ways,queries,"
+                           "accesses,raw_bytes,oracle_bytes,compulsory_bytes,misses,traffic_bytes,reorder_bytes,key_ops,"
+                           "moved_records,buffered_bytes,recast_rays,order_seconds,replay_seconds"));
+    const std::vector<results::Row> rows = results::read_csv(csv);
+    ASSERT_EQ(rows.size(), 2 * reorder::catalogue().size());
+    const trace::TraceReader reader(trace);
+    const std::uint64_t nodes = reader.info().visited_nodes, photons = reader.info().found_photons;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        const results::Row& row = rows[r];
+        EXPECT_EQ(row.ordering, reorder::catalogue()[r / 2].name);
+        EXPECT_EQ(row.scene, "box");
+        EXPECT_EQ(row.cache_bytes, r % 2 == 0 ? 4096u : 2048u);
+        EXPECT_EQ(row.ways, r % 2 == 0 ? 8u : 0u);
+        EXPECT_EQ(row.queries, reader.info().queries);
+        EXPECT_EQ(row.raw_bytes, 20 * nodes);
+        EXPECT_EQ(row.oracle_bytes, 20 * photons);
+        EXPECT_EQ(row.traffic_bytes, row.misses.value_or(0) * row.line_bytes.value_or(0));
+        EXPECT_GE(row.accesses, nodes);
+        // All 2000 photons are 40,000 bytes: no fewer than one line, no more than all of them.
+        EXPECT_GT(row.compulsory_bytes, 0u);
+        EXPECT_LE(row.compulsory_bytes, 40'064u);
+        EXPECT_GE(row.traffic_bytes, row.compulsory_bytes);
+        EXPECT_TRUE(row.order_seconds && row.replay_seconds);
+    }
+}
+
+TEST(Replay, ACacheThatHoldsAllMissesOnlyTheCompulsory) {
+    const std::string csv =
+        expect_done({"replay", (captured_box() / "trace").string(), "--order", "random", "--cache", "1M:128:full"}).out;
+    const results::Row row = results::from_csv(csv, "stdout").at(0);
+    EXPECT_EQ(row.traffic_bytes, row.compulsory_bytes);
+}
+
+TEST(Replay, TheJsonBesideTheCsvSaysHowItCameToBe) {
+    const Scratch scratch;
+    const std::string trace = (captured_box() / "trace").string(), csv = (scratch / "rows.csv").string();
+    expect_done({"replay", trace, "--order", "naive", "--csv", csv});
+    const auto json = nlohmann::json::parse(content(scratch / "rows.json"));
+    EXPECT_EQ(json.at("command_line"), (nlohmann::json{"regather", "replay", trace, "--order", "naive", "--csv", csv}));
+    EXPECT_EQ(json.at("trace_checksum"), trace::TraceReader(trace).checksum());
+    EXPECT_FALSE(json.at("git_revision").get<std::string>().empty());
+    EXPECT_THAT(expect_done({"info", trace}).out, HasSubstr(json.at("trace_checksum").get<std::string>()));
+}
+
+TEST(Replay, FilesAreOverwrittenOnlyByForce) {
+    const Scratch scratch;
+    const std::vector<std::string> words{"replay", (captured_box() / "trace").string(), "--order", "naive", "--csv",
+                                         (scratch / "rows.csv").string()};
+    write(scratch / "rows.csv", "precious");
+    expect_refused(bad_usage, words, {"rows.csv", "--force"});
+    EXPECT_EQ(contents(scratch.path()), (std::map<std::string, std::string>{{"rows.csv", "precious"}}));
+    expect_done(words + std::vector<std::string>{"--force"});
+    EXPECT_THAT(content(scratch / "rows.csv"), StartsWith("scene,frame,"));
+
+    fs::remove(scratch / "rows.csv");
+    write(scratch / "rows.json", "an experiment of the same name");
+    expect_refused(bad_usage, words, {"rows.json", "--force"});
+    EXPECT_EQ(contents(scratch.path()),
+              (std::map<std::string, std::string>{{"rows.json", "an experiment of the same name"}}));
+}
+
+TEST(Replay, ACsvMayNotTakeTheProvenancesName) {
+    const Scratch scratch;
+    expect_refused(bad_usage, {"replay", (captured_box() / "trace").string(), "--order", "naive", "--csv",
+                               (scratch / "rows.json").string(), "--force"}, {"rows.json", ".json"});
+    EXPECT_TRUE(fs::is_empty(scratch.path()));
+}
+
+TEST(Replay, AUsersLibraryIsAnOrdering) {
+    const std::string library = PLUGIN_DIRECTORY "/by_height.so", trace = (captured_box() / "trace").string();
+    const std::string csv = expect_done({"replay", trace, "--reorderer", library, "--cache", "4K:128:8"}).out;
+    EXPECT_EQ(results::from_csv(csv, "stdout").at(0).ordering, "by-height");
+    expect_refused(bad_usage, {"replay", trace, "--reorderer", library + ":fast"}, {"by_height.so", "fast"});
+}
+
+TEST(Replay, AColumnThatWasLeftOutIsNamedWithItsReason) {
+    const Scratch scratch;
+    trace::write_column<trace::Vec3>(scratch / "photon_position.npy", std::vector<trace::Vec3>{{0, 0, 0}});
+    trace::write_column<trace::Vec3>(scratch / "query_position.npy", std::vector<trace::Vec3>{{0, 0, 0}});
+    expect_done({"walk", scratch.path().string(), "-o", (scratch / "trace").string()});
+    for (const auto& [ordering, column] :
+         {std::pair{"direction-binned", "query_direction"}, {"kd-leaf", "query_leaf_kd"}, {"bvh-leaf", "query_leaf_bvh"}})
+        expect_refused(bad_data, {"replay", (scratch / "trace").string(), "--order", ordering},
+                       {std::string(column) + ".npy", "not among the columns given"});
+}
+
+struct Damage {
+    const char* name;
+    void (*apply)(const fs::path& column, std::string whole);
+};
+constexpr Damage damages[] = {
+    {"a byte missing at the end",
+     [](const fs::path& column, std::string whole) { write(column, whole.substr(0, whole.size() - 1)); }},
+    {"a bit flipped in the last row",
+     [](const fs::path& column, std::string whole) {
+         whole.back() = static_cast<char>(whole.back() ^ 1);
+         write(column, whole);
+     }},
+    {"a byte too many", [](const fs::path& column, std::string whole) { write(column, whole + '\0'); }},
+    {"deleted", [](const fs::path& column, std::string) { fs::remove(column); }},
+    {"another column under its name",
+     [](const fs::path& column, std::string) {
+         trace::write_column<std::uint64_t>(column, std::vector<std::uint64_t>{1, 2, 3});
+     }},
+};
+
+/// The columns of a captured trace that have rows, and so a last one to damage.
+std::vector<std::string> damageable(const fs::path& folder) {
+    std::vector<std::string> names;
+    const trace::TraceReader reader(folder);
+    for (const auto& [name, digest] : reader.digests())
+        if (digest.rows > 0) names.push_back(name);
+    return names;
+}
+
+TEST(Damaged, EveryColumnIsRefusedByNameWhateverWasDoneToIt) {
+    const Scratch scratch;
+    const fs::path trace = copied_trace(scratch);
+    const std::vector<std::string> names = damageable(trace);
+    ASSERT_GE(names.size(), 17u);
+    for (const std::string& name : names)
+        for (const Damage& damage : damages) {
+            const fs::path column = trace / (name + ".npy");
+            const std::string whole = content(column);
+            damage.apply(column, whole);
+            try {
+                trace::TraceReader(trace).verify_all();
+                ADD_FAILURE() << name << ": " << damage.name;
+            } catch (const trace::DataError& error) {
+                EXPECT_THAT(error.what(), HasSubstr(column.string())) << damage.name;
+            }
+            write(column, whole);
+        }
+    EXPECT_NO_THROW(trace::TraceReader(trace).verify_all());
+}
+
+TEST(Damaged, TheBinaryRefusesEveryColumnAndWritesNothing) {
+    const Scratch scratch;
+    const fs::path trace = copied_trace(scratch), csv = scratch / "rows.csv";
+    std::size_t turn = 0;
+    for (const std::string& name : damageable(trace)) {
+        const fs::path column = trace / (name + ".npy");
+        const std::string whole = content(column);
+        damages[turn++ % std::size(damages)].apply(column, whole);
+        // Weights, photons and rays are no business of a replay.
+        const bool replayed = name == "walk" || (name.starts_with("query_") && name != "query_weight");
+        if (replayed)
+            expect_refused(bad_data, std::vector<std::string>{"replay", trace.string()} + every_ordering() +
+                                         std::vector<std::string>{"--csv", csv.string()}, {name + ".npy"});
+        else
+            expect_refused(bad_data, {"info", trace.string(), "--verify"}, {name + ".npy"});
+        EXPECT_FALSE(fs::exists(csv));
+        EXPECT_FALSE(fs::exists(scratch / "rows.json"));
+        write(column, whole);
+    }
+    expect_done({"info", trace.string(), "--verify"});
+}
+
+TEST(Damaged, TraceJsonIsRefusedByFieldAndFileName) {
+    const Scratch scratch;
+    const fs::path trace = copied_trace(scratch), json = trace / "trace.json", csv = scratch / "rows.csv";
+    const std::string whole = content(json);
+    const auto refused = [&](const std::vector<std::string>& parts) {
+        expect_refused(bad_data, {"replay", trace.string(), "--order", "naive", "tiled", "--csv", csv.string()}, parts);
+        EXPECT_FALSE(fs::exists(csv));
+    };
+    fs::remove(json);
+    refused({"trace.json", "finished trace"});
+    for (const std::string& garbage : {std::string(), std::string("\x01{\n\xff"), whole.substr(0, whole.size() / 2)}) {
+        write(json, garbage);
+        refused({"trace.json", "no valid JSON"});
+    }
+    write(json, "[]");
+    refused({"trace.json", "regather_trace"});
+
+    const auto with = [&](const char* pointer, const nlohmann::json& value) {
+        auto root = nlohmann::json::parse(whole);
+        root[nlohmann::json::json_pointer(pointer)] = value;
+        write(json, root.dump());
+    };
+    with("/regather_trace", 99);
+    refused({"trace.json", "version 99", "expected 1"});
+    with("/queries", 5);
+    refused({"trace.json", "queries", "found 5"});
+    with("/photons", "many");
+    refused({"trace.json", "photons", "\"many\""});
+    with("/columns/walk/rows", 5);
+    refused({"walk.npy", "expected 5 as in trace.json"});
+    with("/columns/walk/xxh3_64", "0");
+    refused({"trace.json", "16 hexadecimal digits"});
+    with("/image_width", 0);
+    refused({"trace.json", "image_width", "found 0"});
+}
+
+}  // namespace
+}  // namespace regather::cli

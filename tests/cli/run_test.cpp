@@ -1,0 +1,204 @@
+// `regather run`: a whole experiment, taken up where it stopped.
+#include "cli/experiment.h"
+#include "results/csv.h"
+#include "tests/cli/expect.h"
+#include "trace/error.h"
+#include "trace/folder.h"
+
+namespace regather::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+const char* const experiment = R"({
+    "scene": "box",
+    "capture": {"width": 16, "height": 16, "photons": 2000, "k": 20, "gather_rays": 8, "shadow_rays": 4},
+    "caches": [{"size": ["2K", 4096], "line": 128, "ways": 8}],
+    "orderings": ["naive", {"ordering": "hilbert", "tile": [4, 8]}, {"ordering": "direction-binned", "tile": 8, "bins": [2, 4]}]
+})";
+constexpr std::size_t trials = 5, rows = 10;
+
+class Run : public testing::Test {
+protected:
+    Run() { write(file_, experiment); }
+    std::vector<std::string> words() const { return {"run", file_.string(), "-o", folder_.string()}; }
+    /// The rows of one trial each.
+    std::vector<fs::path> parts() const {
+        std::vector<fs::path> found;
+        for (const auto& entry : fs::directory_iterator(folder_ / "parts"))
+            if (!entry.path().filename().string().starts_with("compulsory")) found.push_back(entry.path());
+        std::sort(found.begin(), found.end());
+        return found;
+    }
+    /// As the binary would refuse it, without starting one.
+    void refused(const std::string& text, const std::vector<std::string>& parts_of_message) const {
+        write(file_, text);
+        try {
+            load_experiment(file_);
+            ADD_FAILURE() << "accepted: " << text;
+        } catch (const trace::DataError& error) {
+            EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("experiment.json: "), testing::Not(HasSubstr("\n"))));
+            for (const std::string& part : parts_of_message) EXPECT_THAT(error.what(), HasSubstr(part));
+        }
+    }
+    /// The experiment with another text in place of one that occurs once.
+    static std::string with(const std::string& before, const std::string& after) {
+        std::string text = experiment;
+        return text.replace(text.find(before), before.size(), after);
+    }
+
+    const Scratch scratch_;
+    const fs::path file_ = scratch_ / "experiment.json", folder_ = scratch_ / "out";
+};
+
+TEST_F(Run, MakesImageRowsAndCharts) {
+    const std::string out = expect_done(words()).out;
+    for (const char* file : {"image.exr", "image.png", "rows.csv", "rows.json", "trace/trace.json",
+                             "charts/traffic-by-tile.svg", "charts/traffic-by-tile.png"}) {
+        ASSERT_TRUE(fs::exists(folder_ / file)) << file;
+        EXPECT_GT(fs::file_size(folder_ / file), 0u) << file;
+    }
+    for (const char* file : {"image.png", "rows.csv", "charts/traffic-by-tile.svg"})
+        EXPECT_THAT(out, HasSubstr((folder_ / file).string()));
+    const std::vector<results::Row> all = results::read_csv(folder_ / "rows.csv");
+    ASSERT_EQ(all.size(), rows);
+    const std::vector<std::string> names{"naive", "hilbert", "hilbert", "direction-binned", "direction-binned"};
+    for (std::size_t r = 0; r < rows; ++r) {
+        EXPECT_EQ(all[r].ordering, names[r / 2]);
+        EXPECT_EQ(all[r].cache_bytes, r % 2 == 0 ? 2048u : 4096u);
+        EXPECT_EQ(all[r].raw_bytes, all[0].raw_bytes);
+        EXPECT_GE(all[r].traffic_bytes, all[r].compulsory_bytes);
+    }
+    EXPECT_EQ(all[2].tile, 4u);
+    EXPECT_EQ(all[4].tile, 8u);
+    EXPECT_EQ(all[6].bins, 2u);
+    EXPECT_EQ(all[8].bins, 4u);
+}
+
+TEST_F(Run, AgreesWithReplay) {
+    expect_done(words());
+    const auto of_run = results::read_csv(folder_ / "rows.csv");
+    const std::string csv = expect_done({"replay", (folder_ / "trace").string(), "--order", "naive", "hilbert:tile=4",
+                                         "--cache", "2K:128:8", "4K:128:8"}).out;
+    const auto of_replay = results::from_csv(csv, "stdout");
+    ASSERT_EQ(of_replay.size(), 4u);
+    for (std::size_t r = 0; r < of_replay.size(); ++r) {
+        EXPECT_EQ(of_replay[r].parameters, of_run[r].parameters);
+        EXPECT_EQ(of_replay[r].misses, of_run[r].misses);
+        EXPECT_EQ(of_replay[r].compulsory_bytes, of_run[r].compulsory_bytes);
+        EXPECT_EQ(of_replay[r].key_ops, of_run[r].key_ops);
+    }
+}
+
+TEST_F(Run, FinishedPartsAreKeptAndAMissingOneIsDone) {
+    expect_done(words());
+    const std::string csv = content(folder_ / "rows.csv");
+    std::map<fs::path, fs::file_time_type> written{
+        {folder_ / "trace/trace.json", fs::last_write_time(folder_ / "trace/trace.json")}};
+    for (const fs::path& part : parts()) written[part] = fs::last_write_time(part);
+    ASSERT_EQ(written.size(), trials + 1);
+
+    EXPECT_THAT(expect_done(words()).out, HasSubstr("kept the finished capture"));
+    EXPECT_EQ(content(folder_ / "rows.csv"), csv);  // the measured seconds, too
+    for (const auto& [path, time] : written) EXPECT_EQ(fs::last_write_time(path), time) << path;
+
+    const fs::path lost = parts().front();
+    fs::remove(lost);
+    expect_done(words());
+    ASSERT_TRUE(fs::exists(lost));
+    for (const auto& [path, time] : written) EXPECT_EQ(fs::last_write_time(path) == time, path != lost) << path;
+}
+
+TEST_F(Run, AnotherTrialIsAddedToTheFinishedOnes) {
+    expect_done(words());
+    const std::string before = content(folder_ / "rows.csv");
+    write(file_, with("\"naive\",", "\"naive\", \"morton\","));
+    expect_done(words());
+    EXPECT_EQ(results::read_csv(folder_ / "rows.csv").size(), rows + 2);
+    write(file_, experiment);
+    expect_done(words());
+    EXPECT_EQ(content(folder_ / "rows.csv"), before);
+}
+
+TEST_F(Run, AnotherCaptureNeedsForce) {
+    expect_done(words());
+    const auto before = contents(folder_);
+    write(file_, with("\"k\": 20", "\"k\": 21"));
+    expect_refused(bad_usage, words(), {"other parameters", "--force"});
+    EXPECT_EQ(contents(folder_), before);
+    expect_done(words() + std::vector<std::string>{"--force"});
+    EXPECT_NE(content(folder_ / "rows.csv"), before.at("rows.csv"));
+}
+
+TEST_F(Run, ADamagedPartIsRefusedByName) {
+    expect_done(words());
+    const fs::path part = parts().front();
+    write(part, content(part).substr(0, content(part).size() / 2));
+    expect_refused(bad_data, {"chart", part.string(), "-o", (scratch_ / "charts").string()}, {part.filename().string()});
+    const Outcome outcome = regather(words());
+    EXPECT_EQ(outcome.exit_code, bad_data);
+    EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr(part.filename().string()), HasSubstr("line")));
+}
+
+TEST_F(Run, KilledAtAnyMomentItIsTakenUpAgain) {
+    for (const int milliseconds : {50, 320, 380, 450, 550})
+        regather(words(), std::chrono::milliseconds(milliseconds));  // one after the other in the same folder
+    expect_done(words());
+    EXPECT_EQ(results::read_csv(folder_ / "rows.csv").size(), rows);
+    EXPECT_EQ(parts().size(), trials);
+    EXPECT_NO_THROW(trace::TraceReader(folder_ / "trace").verify_all());
+}
+
+TEST_F(Run, ABadExperimentIsBadDataAndLeavesNothing) {
+    write(file_, with("\"width\"", "\"widht\""));
+    expect_refused(bad_data, words(), {"experiment.json", "capture.widht", "\"width\""});
+    write(file_, with("\"naive\"", "\"naif\""));
+    expect_refused(bad_data, words(), {"experiment.json", "\"naif\"", "naive"});
+    write(file_, with("\"box\"", "\"bx\""));
+    expect_refused(bad_data, words(), {"experiment.json", "\"bx\"", "\"box\""});
+    EXPECT_FALSE(fs::exists(folder_));
+}
+
+TEST_F(Run, AMisspeltKeyBringsTheNearest) {
+    refused(with("\"caches\"", "\"cache\""), {"cache: found an unknown key", "\"caches\""});
+    refused(with("\"width\"", "\"widht\""), {"capture.widht", "\"width\""});
+    refused(with("\"line\"", "\"lines\""), {"caches[0].lines", "\"line\""});
+    refused(with("\"bins\"", "\"bin\""), {"orderings[2]", "\"bin\"", "nearest: bins"});
+}
+
+TEST_F(Run, BadValuesAreRefusedWithTheirPlace) {
+    refused(with("\"naive\"", "\"naif\""), {"orderings[0]", "\"naif\"", "nearest: naive"});
+    refused(with("[4, 8]", "[4, 0]"), {"orderings[1]", "tile", "0"});
+    refused(with("[4, 8]", "[]"), {"orderings[1].tile", "at least one"});
+    refused(with("4096", "5000"), {"caches[0]", "5000"});
+    refused(with("\"k\": 20", "\"k\": 0"), {"capture.k", "found 0"});
+    refused(with("\"k\": 20", "\"k\": 20, \"gather_order\": \"hilbrt\""), {"capture", "hilbrt", "hilbert"});
+    refused(with("\"box\"", "\"bx\""), {"scene", "\"bx\"", "\"box\""});
+    refused(with("\"caches\"", "\"onchip\": [\"1M\", \"2M\"], \"caches\""), {"onchip"});
+}
+
+TEST_F(Run, WrongTypesAreRefusedWithTheirPlace) {
+    refused(with("\"k\": 20", "\"k\": \"20\""), {"capture.k", "\"20\"", "whole number"});
+    refused(with("\"k\": 20", "\"k\": 2.5"), {"capture.k", "2.5", "whole number"});
+    refused(with("\"k\": 20", "\"k\": -1"), {"capture.k", "-1", "whole number"});
+    refused(with("\"box\"", "7"), {"scene", "found 7", "text"});
+    refused(with("\"naive\"", "7"), {"orderings[0]", "number", "object"});
+    refused(with("[4, 8]", "[4, true]"), {"orderings[1].tile", "true"});
+    refused(R"({"scene": "box", "orderings": []})", {"orderings", "at least one"});
+    refused(R"({"scene": "box"})", {"orderings", "found nothing"});
+    refused("[]", {"the file", "array", "object"});
+    refused("{\"scene\": ", {"no valid JSON"});
+    fs::remove(file_);
+    expect_refused(bad_data, words(), {"experiment.json", "no such file"});
+    EXPECT_FALSE(fs::exists(folder_));
+}
+
+TEST_F(Run, ASceneIsFoundBesideTheExperiment) {
+    write(scratch_ / "mine.json", "{}");
+    write(file_, with("\"box\"", "\"mine.json\""));
+    expect_refused(bad_data, words(), {(scratch_ / "mine.json").string(), "name"});
+}
+
+}  // namespace
+}  // namespace regather::cli
