@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "capture/bsdf.h"
+#include "scenes/needs.h"
 #include "spatial/photon_kd.h"
 #include "spatial/triangle_bvh.h"
 #include "spatial/triangle_kd.h"
@@ -19,7 +20,7 @@
 namespace regather::capture {
 namespace {
 
-constexpr std::uint64_t batch_queries = 1 << 19;
+constexpr std::uint64_t batch_rays = 1 << 19;  // gather and shadow rays held at once
 
 class Clock {
 public:
@@ -87,6 +88,12 @@ nlohmann::json counts_of(const PhotonTally& tally, const std::array<std::uint64_
     return counts;
 }
 
+/// What says whether a scene makes rays of this kind; null: every scene does.
+const scenes::Need* need_of(const scenes::Needs& needs, RayKind kind) {
+    if (kind == RayKind::shadow) return &needs.shadow_rays;
+    return kind == RayKind::specular ? &needs.specular_rays : nullptr;
+}
+
 class Digest {
 public:
     Digest() : state_(XXH3_createState()) { XXH3_64bits_reset(state_); }
@@ -144,7 +151,7 @@ Captured capture(const Scene& scene, const CaptureConfig& config, trace::TraceWr
     if (pixels == 0)
         throw trace::UsageError(fmt::format("image size: found {} x {}, expected at least one pixel",
                                             config.pixels.width, config.pixels.height));
-    if (pixels * std::max(config.pixels.gather_rays, 1u) >= (std::uint64_t{1} << 32))
+    if (pixels * (std::uint64_t{config.pixels.gather_rays} + 1) >= (std::uint64_t{1} << 32))
         throw trace::UsageError(fmt::format("gather rays: found {} pixels x {}, expected fewer than 2^32 queries",
                                             pixels, config.pixels.gather_rays));
     const auto report = [&](std::string_view stage, std::uint64_t done, std::uint64_t total) {
@@ -165,14 +172,16 @@ Captured capture(const Scene& scene, const CaptureConfig& config, trace::TraceWr
     if (!writer) columns = {.rays = false, .direction = false, .leaf_kd = false, .leaf_bvh = false};
     const LeafLabels labels(scene, columns);
     const QueryPass query_pass(scene, caster, config.pixels, columns.rays);
+    const scenes::Needs needs = scenes::needs_of(scene);
     if (writer) append(*writer, "photon", heap);
 
     trace::TraceInfo& info = result.info;
     result.image = {config.pixels.width, config.pixels.height, {}};
     result.image.pixels.reserve(pixels);
     std::array<std::uint64_t, 4> ray_counts{};
-    const std::uint64_t batch =
-        std::max<std::uint64_t>(1, batch_queries / std::max(config.pixels.gather_rays, 1u));
+    const std::uint64_t pixel_rays =
+        config.pixels.gather_rays + 2 * std::uint64_t{config.pixels.shadow_rays} * scene.lights.size();
+    const std::uint64_t batch = std::max<std::uint64_t>(1, batch_rays / std::max<std::uint64_t>(pixel_rays, 1));
     PixelWork work;
     Gathered gathered;
     for (std::uint64_t first = 0; first < pixels; first += batch) {
@@ -222,7 +231,7 @@ Captured capture(const Scene& scene, const CaptureConfig& config, trace::TraceWr
             append(*writer, "walk", gathered.walks);
             for (std::size_t kind = 0; columns.rays && kind < work.rays.size(); ++kind) {
                 const Rays& rays = work.rays[kind];
-                if (static_cast<RayKind>(kind) == RayKind::shadow && scene.lights.empty()) continue;
+                if (const scenes::Need* need = need_of(needs, static_cast<RayKind>(kind)); need && !need->needed) continue;
                 const auto name = [&](const char* field) { return fmt::format("ray_{}_{}", ray_kind_names[kind], field); };
                 append(*writer, name("origin"), rays.origin);
                 append(*writer, name("direction"), rays.direction);
@@ -247,13 +256,18 @@ Captured capture(const Scene& scene, const CaptureConfig& config, trace::TraceWr
     if (!columns.direction) left_out("query_direction", "no ordering asked for it");
     if (!columns.leaf_kd) left_out("query_leaf_kd", "no ordering asked for it");
     if (!columns.leaf_bvh) left_out("query_leaf_bvh", "no ordering asked for it");
-    for (const char* kind : ray_kind_names)
+    for (std::size_t k = 0; k < ray_kind_names.size(); ++k) {
+        const char* const kind = ray_kind_names[k];
+        const scenes::Need* const need = need_of(needs, static_cast<RayKind>(k));
         for (const char* field : {"origin", "direction", "extent", "pixel"}) {
             const std::string name = fmt::format("ray_{}_{}", kind, field);
-            if (!columns.rays) left_out(name.c_str(), "no replay asked for rays");
-            else if (scene.lights.empty() && std::string_view(kind) == "shadow")
-                left_out(name.c_str(), "the scene has no lights");
+            if (!columns.rays) {
+                left_out(name.c_str(), "no replay asked for rays");
+            } else if (need && !need->needed) {
+                left_out(name.c_str(), need->reason.c_str());
+            }
         }
+    }
     return result;
 }
 

@@ -21,6 +21,7 @@ namespace regather::capture {
 struct Columns {
     bool rays = true, direction = true, leaf_kd = true, leaf_bvh = true;
 };
+// Ray columns of kinds that the scene has no need of (scenes/needs.h) are left out in any case.
 
 struct CaptureConfig {
     QueryConfig pixels;

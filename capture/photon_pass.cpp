@@ -8,6 +8,7 @@
 
 #include "capture/bsdf.h"
 #include "capture/sampler.h"
+#include "capture/surface.h"
 
 namespace regather::capture {
 namespace {
@@ -57,8 +58,8 @@ private:
         PhotonTally& tally = block.tally;
         Sampler sampler(seed_, Stream::photon, path);
         const double pick = static_cast<double>(sampler.uniform()) * total_;
-        const auto at = std::upper_bound(cumulative_.begin(), cumulative_.end(), pick);
-        const auto chosen = std::min(static_cast<std::size_t>(at - cumulative_.begin()), cumulative_.size() - 1);
+        const auto after = std::upper_bound(cumulative_.begin(), cumulative_.end(), pick);
+        const auto chosen = std::min(static_cast<std::size_t>(after - cumulative_.begin()), cumulative_.size() - 1);
         const scenes::RectangleLight& light = scene_.lights[chosen];
         const double share = (cumulative_[chosen] - (chosen == 0 ? 0 : cumulative_[chosen - 1])) / total_;
 
@@ -71,36 +72,30 @@ private:
         for (std::uint32_t bounce = 0; bounce < max_bounces; ++bounce) {
             const std::optional<Hit> hit = caster_.closest(origin, direction);
             if (!hit) return add(tally.escaped, power);
-            const Material& material = scene_.materials[scene_.triangle_material[hit->triangle]];
             const Vec3 incoming = -direction;
-            const bool front = dot(incoming, hit->geometric_normal) > 0;
-            const Vec3 side = front ? hit->geometric_normal : -hit->geometric_normal;
-            const Vec3 normal = front ? hit->shading_normal : -hit->shading_normal;
+            const Surface at = surface_at(scene_, *hit, incoming);
+            const Material& material = *at.material;
             if (material.kind == MaterialKind::mirror) {
                 add(tally.absorbed_by_specular, power * (Vec3{1, 1, 1} - material.specular));
                 power = power * material.specular;
                 if (power == Vec3{}) return;
-                direction = reflect(incoming, dot(reflect(incoming, normal), side) > 0 ? normal : side);
-                origin = caster_.offset(hit->position, side);
+                direction = reflected(at, incoming);
+                origin = caster_.offset(hit->position, at.side);
             } else if (material.kind == MaterialKind::dielectric) {
-                const float eta = front ? material.index_of_refraction : 1 / material.index_of_refraction;
-                const Vec3 facing = dot(incoming, normal) > 0 ? normal : side;
-                Vec3 refracted;
-                const bool through = sampler.uniform() >= fresnel(dot(incoming, facing), eta) &&
-                                     refract(incoming, facing, eta, refracted) && dot(refracted, side) < 0;
-                direction = through ? refracted : reflect(incoming, facing);
-                if (!through && dot(direction, side) <= 0) direction = reflect(incoming, side);
-                origin = caster_.offset(hit->position, through ? -side : side);
+                Vec3 onward;
+                const bool through = sampler.uniform() >= fresnel(dot(incoming, at.normal), at.eta()) &&
+                                     refracted(at, incoming, onward);
+                direction = through ? onward : reflected(at, incoming);
+                origin = caster_.offset(hit->position, through ? -at.side : at.side);
             } else {
                 block.stored.push_back({hit->position, direction, power});
                 add(tally.stored, power);
-                const Vec3 facing = dot(incoming, normal) > 0 ? normal : side;
-                const Scatter next = scatter(material, facing, incoming, sampler);
-                if (next.absorbed || dot(next.direction, side) <= 0) return;
+                const Scatter next = scatter(material, at.normal, incoming, sampler);
+                if (next.absorbed || dot(next.direction, at.side) <= 0) return;
                 power = power * next.weight;
                 add(tally.reflected, power);
                 direction = next.direction;
-                origin = caster_.offset(hit->position, side);
+                origin = caster_.offset(hit->position, at.side);
             }
         }
         add(tally.cut_off, power);

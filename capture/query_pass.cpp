@@ -9,6 +9,7 @@
 
 #include "capture/bsdf.h"
 #include "capture/sampler.h"
+#include "capture/surface.h"
 
 namespace regather::capture {
 namespace {
@@ -102,12 +103,6 @@ private:
         Vec3 position, normal, side, to_viewer, throughput;
         const Material* material;
     };
-    struct Surface {
-        const Material* material;
-        bool front;
-        Vec3 side, normal;  // geometric and shading normal, on the ray's side
-    };
-
     void count(RayKind kind, Vec3 origin, Vec3 direction, float extent) {
         const auto k = static_cast<std::size_t>(kind);
         ++work_.ray_counts[k];
@@ -123,14 +118,6 @@ private:
         for (int c = 0; c < 3; ++c) radiance_[static_cast<std::size_t>(c)] += static_cast<double>(radiance[c]);
     }
 
-    Surface surface(const Hit& hit, Vec3 incoming) const {
-        const bool front = dot(incoming, hit.geometric_normal) > 0;
-        const Vec3 side = front ? hit.geometric_normal : -hit.geometric_normal;
-        const Vec3 smooth = front ? hit.shading_normal : -hit.shading_normal;
-        return {&scene_.materials[scene_.triangle_material[hit.triangle]], front, side,
-                dot(incoming, smooth) > 0 ? smooth : side};
-    }
-
     /// Light that the surface itself sends towards the ray's origin.
     Vec3 emitted(const Hit& hit, bool front) const {
         const std::int32_t light = scene_.triangle_light[hit.triangle];
@@ -140,32 +127,25 @@ private:
     struct Branch {
         Vec3 origin, direction, throughput;
     };
-    Branch reflected(const Hit& hit, const Surface& at, Vec3 incoming, Vec3 throughput) const {
-        Vec3 direction = reflect(incoming, at.normal);
-        if (dot(direction, at.side) <= 0) direction = reflect(incoming, at.side);
-        return {caster_.offset(hit.position, at.side), direction, throughput};
+    Branch mirrored(const Hit& hit, const Surface& at, Vec3 incoming, Vec3 throughput) const {
+        return {caster_.offset(hit.position, at.side), reflected(at, incoming), throughput};
     }
     /// The refracted branch of a dielectric; false at total internal reflection. Radiance shrinks by the square of
     /// the index that the light leaves behind (Veach 1997, section 5.2).
-    bool refracted(const Hit& hit, const Surface& at, Vec3 incoming, Vec3 throughput, Branch& branch) const {
-        const float eta = at.front ? at.material->index_of_refraction : 1 / at.material->index_of_refraction;
+    bool transmitted(const Hit& hit, const Surface& at, Vec3 incoming, Vec3 throughput, Branch& branch) const {
         Vec3 direction;
-        if (!refract(incoming, at.normal, eta, direction) || dot(direction, at.side) >= 0) return false;
-        branch = {caster_.offset(hit.position, -at.side), direction, throughput * (1 / (eta * eta))};
+        if (!refracted(at, incoming, direction)) return false;
+        branch = {caster_.offset(hit.position, -at.side), direction, throughput * (1 / (at.eta() * at.eta()))};
         return true;
-    }
-    float reflectance(const Surface& at, Vec3 incoming) const {
-        const float eta = at.front ? at.material->index_of_refraction : 1 / at.material->index_of_refraction;
-        return fresnel(dot(incoming, at.normal), eta);
     }
     /// One branch of a specular surface, chosen by Fresnel's share.
     Branch choose_specular(const Hit& hit, const Surface& at, Vec3 incoming, Vec3 throughput, Sampler& sampler) const {
         if (at.material->kind == MaterialKind::mirror)
-            return reflected(hit, at, incoming, throughput * at.material->specular);
+            return mirrored(hit, at, incoming, throughput * at.material->specular);
         Branch through;
-        const float share = reflectance(at, incoming);
-        if (sampler.uniform() >= share && refracted(hit, at, incoming, throughput, through)) return through;
-        return reflected(hit, at, incoming, throughput);
+        const float share = fresnel(dot(incoming, at.normal), at.eta());
+        if (sampler.uniform() >= share && transmitted(hit, at, incoming, throughput, through)) return through;
+        return mirrored(hit, at, incoming, throughput);
     }
 
     /// Follows an eye path through specular surfaces to the points that are shaded. The first dielectric splits the path.
@@ -176,7 +156,7 @@ private:
             const std::optional<Hit> hit = caster_.closest(origin, direction);
             if (!hit) return;
             const Vec3 incoming = -direction;
-            const Surface at = surface(*hit, incoming);
+            const Surface at = surface_at(scene_, *hit, incoming);
             add(throughput * emitted(*hit, at.front));
             if (!is_specular(*at.material)) {
                 if (shaded_points_ < shaded_.size())
@@ -187,12 +167,12 @@ private:
             Branch next;
             if (at.material->kind == MaterialKind::dielectric && may_split) {
                 may_split = false;
-                const float share = reflectance(at, incoming);
-                if (refracted(*hit, at, incoming, throughput * (1 - share), next)) {
-                    const Branch mirror = reflected(*hit, at, incoming, throughput * share);
+                const float share = fresnel(dot(incoming, at.normal), at.eta());
+                if (transmitted(*hit, at, incoming, throughput * (1 - share), next)) {
+                    const Branch mirror = mirrored(*hit, at, incoming, throughput * share);
                     follow_eye(mirror.origin, mirror.direction, mirror.throughput, specular, false, sampler);
                 } else {
-                    next = reflected(*hit, at, incoming, throughput);
+                    next = mirrored(*hit, at, incoming, throughput);
                 }
             } else {
                 next = choose_specular(*hit, at, incoming, throughput, sampler);
@@ -287,7 +267,7 @@ private:
             const std::optional<Hit> hit = caster_.closest(origin, direction);
             if (!hit) return;
             const Vec3 incoming = -direction;
-            const Surface at = surface(*hit, incoming);
+            const Surface at = surface_at(scene_, *hit, incoming);
             // Light met directly is counted by the shadow rays; through a specular surface they cannot reach it.
             if (specular > 0) add(weight * emitted(*hit, at.front));
             if (!is_specular(*at.material)) {

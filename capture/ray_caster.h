@@ -36,7 +36,6 @@ public:
     /// `position` moved off the surface to the side of `normal`, by 2^-17 of the scene's largest coordinate: more than
     /// the rounding of any hit, so that a ray from there does not meet the same surface.
     Vec3 offset(Vec3 position, Vec3 normal) const { return position + normal * epsilon_; }
-    float epsilon() const { return epsilon_; }
 
 private:
     struct Embree;

@@ -44,7 +44,7 @@ CaptureResult run(const CaptureJob& job) {
             if (!fs::exists(job.folder / image))
                 throw trace::UsageError(fmt::format("{}: holds the trace, but no {}; --force captures again",
                                                     job.folder.string(), image));
-        return {fmt::format("kept the finished capture in {}\n{}", job.folder.string(), figures(trace.info())), true};
+        return {fmt::format("kept the finished capture in {}\n{}", job.folder.string(), figures(trace.info()))};
     }
 
     fs::create_directories(job.folder);
@@ -53,7 +53,7 @@ CaptureResult run(const CaptureJob& job) {
     {
         Progress progress;
         config.progress = [&](std::string_view stage, std::uint64_t done, std::uint64_t total) {
-            progress.update(fmt::format("capturing {}", scene.name), stage, done, total);
+            progress.update(fmt::format("capturing {}: {}", scene.name, stage), stage, done, total);
         };
         captured = capture::capture(scene, config, &writer);
     }

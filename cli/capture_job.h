@@ -18,8 +18,7 @@ struct CaptureJob {
 };
 
 struct CaptureResult {
-    std::string report;   ///< For people: several lines with figures and file names.
-    bool reused = false;  ///< The folder held this very capture already.
+    std::string report;  ///< For people: several lines with figures and file names.
 };
 
 /// Keeps a finished capture of the same scene and parameters. A finished one of others: trace::UsageError, unless `force`.

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -15,7 +16,7 @@
 namespace regather::cli {
 namespace {
 
-constexpr std::uint32_t most_pixels = 32768, most_count = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t most_pixels = 32768;
 constexpr std::uint32_t most_photons = (1u << 31) - 1;
 
 }  // namespace
@@ -51,6 +52,7 @@ capture::CaptureConfig CaptureOptions::config() const {
     config.gather.k = k;
     if (!std::isfinite(radius))
         throw trace::UsageError(fmt::format("--radius: found {}, expected a finite number; 0: unlimited", radius));
+    if (!std::isfinite(radius)) throw trace::UsageError("radius: found no finite number, expected a length, or 0: unlimited");
     if (radius > 0) config.gather.radius = static_cast<float>(radius);
     config.columns.rays = rays;
     const std::shared_ptr<reorder::Ordering> ordering = reorder::make_ordering(gather_order);

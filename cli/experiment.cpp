@@ -1,16 +1,19 @@
 #include "cli/experiment.h"
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cli/keys.h"
 #include "cli/measurement.h"
 #include "cli/size.h"
 #include "scenes/loader.h"
 #include "trace/error.h"
+#include "trace/file.h"
 
 namespace regather::cli {
 namespace {
@@ -58,6 +61,13 @@ std::vector<std::string> specs(const json& entry, const Object& object, const st
     return all;
 }
 
+/// XXH3-64 of the file when `name` is a library's path.
+std::string library_digest(const std::string& name) {
+    if (!name.ends_with(".so")) return {};
+    const std::string bytes = trace::read_file(name);
+    return fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
+}
+
 }  // namespace
 
 Experiment load_experiment(const std::filesystem::path& path) {
@@ -65,7 +75,16 @@ Experiment load_experiment(const std::filesystem::path& path) {
     if (!stream) throw trace::DataError(fmt::format("{}: found no such file, expected an experiment", path.string()));
     json root;
     try {
-        root = json::parse(stream);
+        // A key that stands twice in an object would silently lose its first value.
+        std::vector<std::set<std::string>> open_objects;
+        root = json::parse(stream, [&](int, json::parse_event_t event, json& value) {
+            if (event == json::parse_event_t::object_start) open_objects.emplace_back();
+            if (event == json::parse_event_t::object_end) open_objects.pop_back();
+            if (event == json::parse_event_t::key && !open_objects.back().insert(value.get<std::string>()).second)
+                throw trace::DataError(fmt::format("{}: {}: found the key twice in one object, expected it once",
+                                                   path.string(), value.get<std::string>()));
+            return true;
+        });
     } catch (const json::exception& error) {
         throw trace::DataError(fmt::format("{}: found no valid JSON ({})", path.string(), error.what()));
     }
@@ -98,7 +117,7 @@ Experiment load_experiment(const std::filesystem::path& path) {
         const std::string name = object.text("ordering");
         for (const std::string& spec : specs(entry, object, name))
             experiment.trials.push_back({at(in, place, [&] { return reorder::parse_ordering(spec); }),
-                                         object.has("caches") ? parse_caches(object) : caches});
+                                         object.has("caches") ? parse_caches(object) : caches, library_digest(name)});
     }
     return experiment;
 }

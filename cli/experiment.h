@@ -16,12 +16,13 @@ namespace regather::cli {
 struct Trial {
     reorder::ParsedOrdering ordering;
     std::vector<cachesim::CacheConfig> caches;
+    std::string library_digest;  ///< Of a user's shared library, else empty.
 };
 
 struct Experiment {
     std::string scene;
     CaptureOptions capture;
-    std::vector<Trial> trials;  ///< Lists of parameter values are multiplied out, the last one fastest.
+    std::vector<Trial> trials;  ///< Lists of parameter values are multiplied out, keys in alphabetical order, the last fastest.
     std::uint64_t onchip_bytes = reorder::default_onchip_bytes;
 };
 

@@ -5,6 +5,7 @@
 #include <xxhash.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
 #include <memory>
@@ -27,12 +28,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The rows of one trial, as a file that bears a digest of all that they depend on.
+/// The rows of one trial, as a file that bears a digest of all that they depend on: the code, too.
 fs::path part_path(const fs::path& folder, const Trial& trial, const trace::TraceReader& trace,
                    std::uint64_t onchip_bytes) {
-    std::string key = fmt::format("{} {} {}", trace.checksum(), trial.ordering.spec.text, onchip_bytes);
+    std::string key = fmt::format("{} {} {} {} {}", git_revision(), trace.checksum(), trial.ordering.spec.text,
+                                  trial.library_digest, onchip_bytes);
     for (const cachesim::CacheConfig& cache : trial.caches) key += ' ' + cache_text(cache);
     return folder / "parts" / fmt::format("{:016x}.csv", XXH3_64bits(key.data(), key.size()));
+}
+
+std::string join(const std::vector<std::uint32_t>& numbers) {
+    std::string text;
+    for (const std::uint32_t number : numbers) text += (text.empty() ? "" : "-") + std::to_string(number);
+    return text;
 }
 
 /// Compulsory traffic by line size, kept likewise.
@@ -42,7 +50,7 @@ void find_compulsory(Measurement& measurement, const fs::path& folder, const Exp
     for (const Trial& trial : experiment.trials)
         for (const cachesim::CacheConfig& cache : trial.caches) sizes.insert(cache.line_bytes);
     const std::vector<std::uint32_t> lines(sizes.begin(), sizes.end());
-    const fs::path path = folder / "parts" / fmt::format("compulsory-{}-{}.csv", trace.checksum(), fmt::join(lines, "-"));
+    const fs::path path = folder / "parts" / fmt::format("compulsory-{}-{}.csv", trace.checksum(), join(lines));
     if (fs::exists(path)) {
         for (const results::Row& row : results::read_csv(path))
             measurement.compulsory_bytes[static_cast<std::uint32_t>(row.line_bytes.value_or(0))] =
@@ -66,14 +74,16 @@ void find_compulsory(Measurement& measurement, const fs::path& folder, const Exp
 /// order_seconds is measured on a machine that does nothing else.
 void replay_missing(const Measurement& measurement, const Experiment& experiment, std::span<const fs::path> parts) {
     std::vector<std::size_t> missing;
+    std::set<fs::path> seen;  // a trial that is asked for twice is replayed once
     for (std::size_t t = 0; t < parts.size(); ++t)
-        if (!fs::exists(parts[t])) missing.push_back(t);
+        if (!fs::exists(parts[t]) && seen.insert(parts[t]).second) missing.push_back(t);
     const std::uint64_t total = missing.size() * measurement.queries();
     std::atomic<std::uint64_t> done{0};
     Progress progress;
-    constexpr std::size_t most_at_once = 16;  // permutations held: 4 bytes a query each
-    const std::size_t at_once =
-        std::min<std::size_t>(most_at_once, static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
+    constexpr std::uint64_t most_bytes = std::uint64_t{4} << 30;  // of permutations held: 4 bytes a query each
+    const std::uint64_t fitting = most_bytes / (4 * std::max<std::uint64_t>(measurement.queries(), 1));
+    const auto threads = static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency());
+    const std::size_t at_once = std::clamp<std::uint64_t>(fitting, 1, threads);
     for (std::size_t first = 0; first < missing.size(); first += at_once) {
         const std::size_t count = std::min(at_once, missing.size() - first);
         std::vector<reorder::Ordered> ordered;

@@ -5,9 +5,21 @@
 #include "trace/error.h"
 
 namespace regather::replay {
+namespace {
+
+/// Nodes of the tree that the walks were taken in; opening the column checks it.
+std::uint32_t tree_size(trace::TraceReader& trace) {
+    const std::uint64_t photons = trace.column<trace::Photon>("photon").size();
+    if (photons >= std::uint64_t{1} << 31)
+        throw trace::DataError(fmt::format("{}: found {} rows, expected fewer than 2^31",
+                                           (trace.folder() / "photon.npy").string(), photons));
+    return static_cast<std::uint32_t>(photons);
+}
+
+}  // namespace
 
 WalkStore::WalkStore(trace::TraceReader& trace)
-    : WalkStore(static_cast<std::uint32_t>(trace.info().photons), trace.column<std::uint32_t>("query_walk_bytes"),
+    : WalkStore(tree_size(trace), trace.column<std::uint32_t>("query_walk_bytes"),
                 trace.column<std::uint8_t>("walk")) {
     trace.expect_random_access("walk");
 }

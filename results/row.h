@@ -32,7 +32,9 @@ struct Row {
     Count compulsory_bytes;       ///< Distinct lines x line size.
     Count misses, traffic_bytes;
     Count keys, key_ops, sort_passes, moved_records, buffered_bytes, reorder_bytes, recast_rays, stalls;
-    std::optional<double> order_seconds, replay_seconds;
+    std::optional<double> order_seconds;   ///< Keys and sort, measured alone.
+    std::optional<double> replay_seconds;  ///< One replay through all caches of its trial, beside as many others as there
+                                           ///< are threads: the same in each of the trial's rows.
 };
 
 }  // namespace regather::results

@@ -30,7 +30,7 @@ private:
 
 /// The photons in heap order with their split axes set: each node splits its photons along the longest side of their
 /// bounding box (ties: x before y before z). Equal coordinates are ordered by place in the input, so the result
-/// depends on nothing else. O(n log^2 n) in parallel tasks. Throws trace::DataError for a photon at NaN or infinity and
+/// depends on nothing else. O(n log n) in parallel tasks. Throws trace::DataError for a photon at NaN or infinity and
 /// for 2^31 or more photons.
 std::vector<Photon> left_balanced(std::span<const Photon> photons);
 

@@ -217,10 +217,17 @@ TraceReader::TraceReader(fs::path folder) : folder_(std::move(folder)) {
     };
     expect_rows("query_position", "queries", info_.queries);
     expect_rows("photon", "photons", info_.photons);
+    for (const auto& [name, digest] : digests_) {
+        const fs::path path = column_path(folder_, name);
+        MappedColumn column(path, column_entry(name).type());
+        if (column.size() != digest.rows)
+            throw DataError(fmt::format("{}: found {} rows, expected {} as in trace.json", path.string(), column.size(),
+                                        digest.rows));
+        mapped_.emplace(name, std::move(column));
+    }
 }
 
 const MappedColumn& TraceReader::open(std::string_view name, const ColumnType& type) {
-    if (const auto found = open_.find(name); found != open_.end()) return found->second;
     const fs::path path = column_path(folder_, name);
     const auto digest = digests_.find(std::string(name));
     if (digest == digests_.end()) {
@@ -229,14 +236,13 @@ const MappedColumn& TraceReader::open(std::string_view name, const ColumnType& t
             if (entry.what == name) why = entry.why;
         throw DataError(fmt::format("{}: found no such column ({}), expected {}", path.string(), why, type.readable));
     }
-    MappedColumn column(path, type);
-    if (column.size() != digest->second.rows)
-        throw DataError(fmt::format("{}: found {} rows, expected {} as in trace.json", path.string(), column.size(),
-                                    digest->second.rows));
+    const MappedColumn& column = mapped_.find(name)->second;
+    if (verified_.contains(name)) return column;
     if (const std::uint64_t checksum = column.checksum(); checksum != digest->second.checksum)
         throw DataError(fmt::format("{}: found checksum {}, expected {} as in trace.json", path.string(),
                                     hexadecimal(checksum), hexadecimal(digest->second.checksum)));
-    return open_.emplace(name, std::move(column)).first->second;
+    verified_.emplace(name);
+    return column;
 }
 
 void TraceReader::verify_all() {

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -61,7 +62,8 @@ private:
 };
 
 /// Opens a finished trace. Throws DataError that names file, field, found and expected when it is not one, or is of
-/// another schema version, or a required column is missing or has another row count than trace.json says.
+/// another schema version, or a required column is not listed, or a listed one is missing or has
+/// another type or row count than trace.json says.
 class TraceReader {
 public:
     explicit TraceReader(std::filesystem::path folder);
@@ -76,10 +78,6 @@ public:
     std::span<const T> column(std::string_view name) {
         return open(name, column_type<T>()).template rows<T>();
     }
-    template <class T>
-    std::span<const T> column_or_empty(std::string_view name) {
-        return has(name) ? column<T>(name) : std::span<const T>{};
-    }
     void verify_all();  ///< Reads every column.
     /// One number for the whole trace: XXH3-64 over the names and checksums of its columns, in hexadecimal.
     std::string checksum() const;
@@ -92,7 +90,8 @@ private:
     std::filesystem::path folder_;
     TraceInfo info_;
     std::map<std::string, ColumnDigest> digests_;
-    std::map<std::string, MappedColumn, std::less<>> open_;
+    std::map<std::string, MappedColumn, std::less<>> mapped_;
+    std::set<std::string, std::less<>> verified_;
 };
 
 }  // namespace regather::trace

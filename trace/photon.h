@@ -19,7 +19,7 @@ struct Photon {
 static_assert(sizeof(Photon) == 20 && std::is_trivially_copyable_v<Photon> && std::is_standard_layout_v<Photon>);
 
 /// RGBE of a finite, non-negative triple, truncated; decoded to the middle of the interval, so each channel is within
-/// 1/256 of the largest channel, without bias over many. A triple under 2^-128 [W] becomes 0.
+/// 1/256 of the largest channel; a channel under 1/256 of the largest is lost, and so is a triple under 2^-128 [W].
 void encode_power(Vec3 power, std::uint8_t rgbe[4]);
 Vec3 decode_power(const std::uint8_t rgbe[4]);
 

@@ -15,7 +15,8 @@ TEST(Scenes, ListsEveryEmbeddedScene) {
     const std::string list = expect_done({"scenes"}).out;
     for (const scenes::EmbeddedScene& scene : scenes::catalogue()) {
         EXPECT_THAT(list, HasSubstr(fmt::format("\n{} ", scene.name)));
-        EXPECT_THAT(expect_done({"scenes", std::string(scene.name)}).out, HasSubstr(std::string(scene.summary)));
+        EXPECT_THAT(expect_done({"scenes", std::string(scene.name)}).out,
+                    HasSubstr(std::string(scene.summary)));
     }
 }
 
@@ -23,27 +24,31 @@ TEST(Scenes, AMisspeltKeyOfASceneFileIsBadData) {
     const Scratch scratch;
     write(scratch / "mine.json", R"({"camra": {}})");
     for (const char* command : {"scenes", "info"})
-        expect_refused(bad_data, {command, (scratch / "mine.json").string()}, {"mine.json", "camra", "\"camera\""});
+        expect_refused(bad_data, {command, (scratch / "mine.json").string()},
+                       {"mine.json", "camra", "\"camera\""});
     expect_refused(bad_usage, {"scenes", "rom"}, {"\"rom\"", "\"room\""});
 }
 
 TEST(Info, TellsWhatATraceHolds) {
     const std::string text = expect_done({"info", (captured_box() / "trace").string()}).out;
-    for (const char* part : {"scene      box", "16 x 16 pixels", "query_position", "float32 x 3", "ray_gather_origin", "checksum"})
+    for (const char* part : {"scene      box", "16 x 16 pixels", "query_position", "float32 x 3",
+                             "ray_gather_origin", "checksum"})
         EXPECT_THAT(text, HasSubstr(part));
     expect_refused(bad_data, {"info", captured_box().string()}, {"no trace.json", "finished trace"});
 }
 
 TEST(Info, TellsWhatASceneNeeds) {
-    EXPECT_THAT(expect_done({"info", "box"}).out, testing::AllOf(HasSubstr("scene      box"), HasSubstr("needed")));
+    EXPECT_THAT(expect_done({"info", "box"}).out,
+                testing::AllOf(HasSubstr("scene      box"), HasSubstr("needed")));
     expect_refused(bad_usage, {"info", "bx"}, {"\"bx\"", "\"box\""});
 }
 
 class Chart : public testing::Test {
 protected:
     void SetUp() override {
-        expect_done({"replay", (captured_box() / "trace").string(), "--order", "naive", "tiled:tile=4", "tiled:tile=8",
-                     "hilbert:tile=4", "hilbert:tile=8", "--cache", "4K:128:8", "--csv", csv_.string()});
+        expect_done({"replay", (captured_box() / "trace").string(), "--order", "naive", "tiled:tile=4",
+                     "tiled:tile=8", "hilbert:tile=4", "hilbert:tile=8", "--cache", "4K:128:8", "--csv",
+                     csv_.string()});
     }
     std::vector<std::string> words(const std::vector<std::string>& more = {}) const {
         return std::vector<std::string>{"chart", csv_.string(), "-o", charts_.string()} + more;
@@ -80,7 +85,8 @@ TEST_F(Chart, ADamagedCsvIsRefusedWithTheLine) {
     write(csv_, whole.substr(0, whole.size() - 40));
     expect_refused(bad_data, words(), {"rows.csv", "line 6"});
     EXPECT_FALSE(fs::exists(charts_));
-    expect_refused(bad_data, {"chart", (scratch_ / "none.csv").string(), "-o", charts_.string()}, {"none.csv"});
+    expect_refused(bad_data, {"chart", (scratch_ / "none.csv").string(), "-o", charts_.string()},
+                   {"none.csv"});
     expect_refused(bad_usage, words({"--kind", "traffic-by-tiles"}), {"traffic-by-tiles", "traffic-by-tile"});
     expect_refused(bad_usage, words({"--cache", "128K"}), {"128K", "SIZE:LINE:WAYS"});
 }
@@ -88,14 +94,17 @@ TEST_F(Chart, ADamagedCsvIsRefusedWithTheLine) {
 TEST(Cachesim, AnAddressTraceBecomesATable) {
     const Scratch scratch;
     trace::write_column<std::uint64_t>(scratch / "addresses.npy", std::vector<std::uint64_t>{0, 64, 0, 128});
-    const std::vector<std::string> words{"cachesim", (scratch / "addresses.npy").string(), "--size", "128", "--line", "64",
-                                         "--ways", "1,full"};
+    const std::vector<std::string> words{
+        "cachesim", (scratch / "addresses.npy").string(), "--size", "128", "--line", "64", "--ways",
+        "1,full"};
     EXPECT_EQ(expect_done(words).out,
               "policy,size_bytes,line_bytes,ways,accesses,misses,traffic_bytes\n"
               "lru,128,64,1,4,3,192\nlru,128,64,full,4,3,192\n");
     write(scratch / "program.din", "0 0\n0 zero\n");
-    expect_refused(bad_data, {"cachesim", (scratch / "program.din").string(), "--size", "1K", "--line", "64", "--ways", "1"},
-                   {"program.din", "zero"});
+    expect_refused(
+        bad_data,
+        {"cachesim", (scratch / "program.din").string(), "--size", "1K", "--line", "64", "--ways", "1"},
+        {"program.din", "zero"});
 }
 
 }  // namespace

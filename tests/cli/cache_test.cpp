@@ -19,13 +19,31 @@ TEST(ParseCache, SizeLineAndWays) {
 }
 
 TEST(ParseCache, ItsTextIsReadBack) {
-    for (const char* text : {"131072:128:8", "16384:64:full", "64:64:1"}) EXPECT_EQ(cache_text(parse_cache(text)), text);
+    for (const char* text : {"131072:128:8", "16384:64:full", "64:64:1"})
+        EXPECT_EQ(cache_text(parse_cache(text)), text);
 }
 
 TEST(ParseCache, AllElseIsAUsageError) {
-    for (const char* text : {"", ":", "::", "128K", "128K:128", "128K:128:", "128K:128:0", "128K:128:-1", "128K:128:8:1",
-                             "128K:128:8 ", "128K:128:FULL", "128K:0:8", "0:128:8", "128K:96:8", "128K:128:3", "100:3:7",
-                             "128K:128:4294967296", "8G:4294967296:1", "128K:256K:1", "big:128:8"})
+    for (const char* text : {"",
+                             ":",
+                             "::",
+                             "128K",
+                             "128K:128",
+                             "128K:128:",
+                             "128K:128:0",
+                             "128K:128:-1",
+                             "128K:128:8:1",
+                             "128K:128:8 ",
+                             "128K:128:FULL",
+                             "128K:0:8",
+                             "0:128:8",
+                             "128K:96:8",
+                             "128K:128:3",
+                             "100:3:7",
+                             "128K:128:4294967296",
+                             "8G:4294967296:1",
+                             "128K:256K:1",
+                             "big:128:8"})
         EXPECT_THROW(parse_cache(text), trace::UsageError) << text;
 }
 

@@ -15,12 +15,14 @@ TEST(Capture, MakesImagesAndATrace) {
     EXPECT_TRUE(files.contains("trace/trace.json"));
     for (const auto& [name, bytes] : files) EXPECT_THAT(name, testing::Not(HasSubstr("partial")));
     EXPECT_THAT(expect_done({"info", (captured_box() / "trace").string(), "--verify"}).out,
-                testing::AllOf(HasSubstr("16 x 16 pixels"), HasSubstr("2000 photons, k = 20"), HasSubstr("verified")));
+                testing::AllOf(HasSubstr("16 x 16 pixels"), HasSubstr("2000 photons, k = 20"),
+                               HasSubstr("verified")));
 }
 
 TEST(Capture, TheSameIsKeptAndOthersNeedForce) {
     const Scratch scratch;
-    const std::vector<std::string> words = small_capture(scratch / "box") + std::vector<std::string>{"--radius", "0.3"};
+    const std::vector<std::string> words =
+        small_capture(scratch / "box") + std::vector<std::string>{"--radius", "0.3"};
     EXPECT_THAT(expect_done(words).out, HasSubstr("captured box"));
     const auto first = contents(scratch / "box");
     const auto written = fs::last_write_time(scratch / "box/trace/trace.json");
@@ -52,8 +54,10 @@ TEST(Capture, OtherFilesInTheTracesFolderAreSafe) {
     const Scratch scratch;
     fs::create_directories(scratch / "box/trace");
     write(scratch / "box/trace/thesis.tex", "years of work");
-    expect_refused(bad_usage, small_capture(scratch / "box") + std::vector<std::string>{"--force"}, {"thesis.tex"});
-    EXPECT_EQ(contents(scratch / "box"), (std::map<std::string, std::string>{{"trace/thesis.tex", "years of work"}}));
+    expect_refused(bad_usage, small_capture(scratch / "box") + std::vector<std::string>{"--force"},
+                   {"thesis.tex"});
+    EXPECT_EQ(contents(scratch / "box"),
+              (std::map<std::string, std::string>{{"trace/thesis.tex", "years of work"}}));
 }
 
 TEST(Capture, AFileInTheFoldersPlaceIsAFailedRun) {
@@ -67,8 +71,8 @@ TEST(Capture, KilledAtAnyMomentItLeavesNothingThatReplayAccepts) {
     for (const int milliseconds : {50, 350, 450, 600, 900}) {
         const Scratch scratch;
         const std::string folder = (scratch / "room").string();
-        const std::vector<std::string> words{"capture", "room", "-o", folder, "--width", "64", "--height", "64", "--photons",
-                                             "50000", "--gather-rays", "40"};
+        const std::vector<std::string> words{"capture",  "room", "-o",        folder,  "--width",       "64",
+                                             "--height", "64",   "--photons", "50000", "--gather-rays", "40"};
         const Outcome killed = regather(words, std::chrono::milliseconds(milliseconds));
         const std::vector<std::string> replay{"replay", folder + "/trace", "--order", "naive"};
         if (killed.exit_code == 0) {
@@ -79,10 +83,12 @@ TEST(Capture, KilledAtAnyMomentItLeavesNothingThatReplayAccepts) {
         if (!fs::exists(folder + "/trace/trace.json"))
             expect_refused(bad_data, replay, {"room/trace"});
         else
-            EXPECT_NO_THROW(trace::TraceReader(folder + "/trace").verify_all());  // killed after the last step
+            EXPECT_NO_THROW(
+                trace::TraceReader(folder + "/trace").verify_all());  // killed after the last step
         // What the interrupted one left is in nobody's way.
-        const std::vector<std::string> again{"capture", "room", "-o", folder, "--width", "8", "--height", "8", "--photons",
-                                             "500", "--gather-rays", "4", "--force"};
+        const std::vector<std::string> again{"capture",  "room", "-o",        folder, "--width",       "8",
+                                             "--height", "8",    "--photons", "500",  "--gather-rays", "4",
+                                             "--force"};
         expect_done(again);
         EXPECT_NO_THROW(trace::TraceReader(folder + "/trace").verify_all());
     }

@@ -1,5 +1,5 @@
-// tests/cli/command.h -- runs the binary as a user's shell would: argument vector in, exit code and both outputs out. Nothing
-// hangs: after a minute a run is killed.
+// tests/cli/command.h -- runs the binary as a user's shell would: argument vector in, exit code and both
+// outputs out. Nothing hangs: after a minute a run is killed.
 #pragma once
 #include <fcntl.h>
 #include <signal.h>
@@ -29,12 +29,14 @@ struct Outcome {
     std::string out, err;
 };
 
-/// The binary with these words. `kill_after`: SIGKILL when it still runs then. `out`: where stdout goes instead of Outcome.
-inline Outcome regather(std::vector<std::string> words, std::optional<std::chrono::milliseconds> kill_after = {},
-                        const char* out = nullptr) {
+/// The binary with these words. `kill_after`: SIGKILL when it still runs then. `out`: where stdout goes
+/// instead of Outcome.
+inline Outcome regather(std::vector<std::string> words,
+                        std::optional<std::chrono::milliseconds> kill_after = {}, const char* out = nullptr) {
     using Clock = std::chrono::steady_clock;
     const Scratch scratch;
-    const std::string out_path = out ? out : (scratch / "out").string(), err_path = (scratch / "err").string();
+    const std::string out_path = out ? out : (scratch / "out").string(),
+                      err_path = (scratch / "err").string();
     words.insert(words.begin(), REGATHER_BINARY);
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
@@ -67,7 +69,9 @@ inline Outcome regather(std::vector<std::string> words, std::optional<std::chron
     return outcome;
 }
 
-inline std::string content(const std::filesystem::path& path) { return trace::read_file(path); }
+inline std::string content(const std::filesystem::path& path) {
+    return trace::read_file(path);
+}
 
 inline void write(const std::filesystem::path& path, const std::string& bytes) {
     std::ofstream(path, std::ios::binary) << bytes;

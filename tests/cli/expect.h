@@ -1,4 +1,5 @@
-// tests/cli/expect.h -- what every run of the binary must show, by its exit code; and one small capture to work with.
+// tests/cli/expect.h -- what every run of the binary must show, by its exit code; and one small capture to
+// work with.
 #pragma once
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,21 +21,37 @@ inline Outcome expect_done(const std::vector<std::string>& words) {
 }
 
 /// This exit code, nothing on stdout, and on stderr one line "regather: ..." that holds each of `parts`.
-inline void expect_refused(int exit_code, const std::vector<std::string>& words, const std::vector<std::string>& parts) {
+inline void expect_refused(int exit_code, const std::vector<std::string>& words,
+                           const std::vector<std::string>& parts) {
     const Outcome outcome = regather(words);
     EXPECT_EQ(outcome.exit_code, exit_code) << testing::PrintToString(words) << outcome.err;
     EXPECT_EQ(outcome.out, "") << testing::PrintToString(words);
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
     EXPECT_THAT(outcome.err, testing::AllOf(testing::StartsWith("regather: "), testing::EndsWith("\n")));
-    for (const std::string& part : parts) EXPECT_THAT(outcome.err, testing::HasSubstr(part)) << testing::PrintToString(words);
+    for (const std::string& part : parts)
+        EXPECT_THAT(outcome.err, testing::HasSubstr(part)) << testing::PrintToString(words);
 }
 
 inline constexpr int bad_usage = 2, bad_data = 3, run_failed = 1;
 
 /// The words of a capture of the scene `box` that takes a moment.
 inline std::vector<std::string> small_capture(const std::filesystem::path& folder) {
-    return {"capture", "box", "-o", folder.string(), "--width", "16", "--height", "16", "--photons", "2000",
-            "--k", "20", "--gather-rays", "8", "--shadow-rays", "4"};
+    return {"capture",
+            "box",
+            "-o",
+            folder.string(),
+            "--width",
+            "16",
+            "--height",
+            "16",
+            "--photons",
+            "2000",
+            "--k",
+            "20",
+            "--gather-rays",
+            "8",
+            "--shadow-rays",
+            "4"};
 }
 
 /// A finished small capture, made once a process. Copy what you damage.
@@ -54,7 +71,8 @@ inline std::filesystem::path copied_trace(const Scratch& scratch, const std::str
     return scratch / name;
 }
 
-inline std::vector<std::string> operator+(std::vector<std::string> words, const std::vector<std::string>& more) {
+inline std::vector<std::string> operator+(std::vector<std::string> words,
+                                          const std::vector<std::string>& more) {
     words.insert(words.end(), more.begin(), more.end());
     return words;
 }

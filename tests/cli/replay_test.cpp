@@ -24,10 +24,12 @@ TEST(Replay, EveryOrderingGetsARowForEachCache) {
     const std::string trace = (captured_box() / "trace").string();
     expect_done(std::vector<std::string>{"replay", trace} + every_ordering() +
                 std::vector<std::string>{"--cache", "4K:128:8", "2K:64:full", "--csv", csv.string()});
-    EXPECT_THAT(content(csv),
-                StartsWith("scene,frame,ordering,tile,bins,structure,layout,policy,cache_bytes,line_bytes,ways,queries,"
-                           "accesses,raw_bytes,oracle_bytes,compulsory_bytes,misses,traffic_bytes,reorder_bytes,key_ops,"
-                           "moved_records,buffered_bytes,recast_rays,order_seconds,replay_seconds"));
+    EXPECT_THAT(
+        content(csv),
+        StartsWith(
+            "scene,frame,ordering,tile,bins,structure,layout,policy,cache_bytes,line_bytes,ways,queries,"
+            "accesses,raw_bytes,oracle_bytes,compulsory_bytes,misses,traffic_bytes,reorder_bytes,key_ops,"
+            "moved_records,buffered_bytes,recast_rays,order_seconds,replay_seconds"));
     const std::vector<results::Row> rows = results::read_csv(csv);
     ASSERT_EQ(rows.size(), 2 * reorder::catalogue().size());
     const trace::TraceReader reader(trace);
@@ -52,8 +54,9 @@ TEST(Replay, EveryOrderingGetsARowForEachCache) {
 }
 
 TEST(Replay, ACacheThatHoldsAllMissesOnlyTheCompulsory) {
-    const std::string csv =
-        expect_done({"replay", (captured_box() / "trace").string(), "--order", "random", "--cache", "1M:128:full"}).out;
+    const std::string csv = expect_done({"replay", (captured_box() / "trace").string(), "--order", "random",
+                                         "--cache", "1M:128:full"})
+                                .out;
     const results::Row row = results::from_csv(csv, "stdout").at(0);
     EXPECT_EQ(row.traffic_bytes, row.compulsory_bytes);
 }
@@ -63,7 +66,8 @@ TEST(Replay, TheJsonBesideTheCsvSaysHowItCameToBe) {
     const std::string trace = (captured_box() / "trace").string(), csv = (scratch / "rows.csv").string();
     expect_done({"replay", trace, "--order", "naive", "--csv", csv});
     const auto json = nlohmann::json::parse(content(scratch / "rows.json"));
-    EXPECT_EQ(json.at("command_line"), (nlohmann::json{"regather", "replay", trace, "--order", "naive", "--csv", csv}));
+    EXPECT_EQ(json.at("command_line"),
+              (nlohmann::json{"regather", "replay", trace, "--order", "naive", "--csv", csv}));
     EXPECT_EQ(json.at("trace_checksum"), trace::TraceReader(trace).checksum());
     EXPECT_FALSE(json.at("git_revision").get<std::string>().empty());
     EXPECT_THAT(expect_done({"info", trace}).out, HasSubstr(json.at("trace_checksum").get<std::string>()));
@@ -71,8 +75,8 @@ TEST(Replay, TheJsonBesideTheCsvSaysHowItCameToBe) {
 
 TEST(Replay, FilesAreOverwrittenOnlyByForce) {
     const Scratch scratch;
-    const std::vector<std::string> words{"replay", (captured_box() / "trace").string(), "--order", "naive", "--csv",
-                                         (scratch / "rows.csv").string()};
+    const std::vector<std::string> words{"replay", (captured_box() / "trace").string(), "--order", "naive",
+                                         "--csv",  (scratch / "rows.csv").string()};
     write(scratch / "rows.csv", "precious");
     expect_refused(bad_usage, words, {"rows.csv", "--force"});
     EXPECT_EQ(contents(scratch.path()), (std::map<std::string, std::string>{{"rows.csv", "precious"}}));
@@ -88,8 +92,10 @@ TEST(Replay, FilesAreOverwrittenOnlyByForce) {
 
 TEST(Replay, ACsvMayNotTakeTheProvenancesName) {
     const Scratch scratch;
-    expect_refused(bad_usage, {"replay", (captured_box() / "trace").string(), "--order", "naive", "--csv",
-                               (scratch / "rows.json").string(), "--force"}, {"rows.json", ".json"});
+    expect_refused(bad_usage,
+                   {"replay", (captured_box() / "trace").string(), "--order", "naive", "--csv",
+                    (scratch / "rows.json").string(), "--force"},
+                   {"rows.json", ".json"});
     EXPECT_TRUE(fs::is_empty(scratch.path()));
 }
 
@@ -105,8 +111,9 @@ TEST(Replay, AColumnThatWasLeftOutIsNamedWithItsReason) {
     trace::write_column<trace::Vec3>(scratch / "photon_position.npy", std::vector<trace::Vec3>{{0, 0, 0}});
     trace::write_column<trace::Vec3>(scratch / "query_position.npy", std::vector<trace::Vec3>{{0, 0, 0}});
     expect_done({"walk", scratch.path().string(), "-o", (scratch / "trace").string()});
-    for (const auto& [ordering, column] :
-         {std::pair{"direction-binned", "query_direction"}, {"kd-leaf", "query_leaf_kd"}, {"bvh-leaf", "query_leaf_bvh"}})
+    for (const auto& [ordering, column] : {std::pair{"direction-binned", "query_direction"},
+                                           {"kd-leaf", "query_leaf_kd"},
+                                           {"bvh-leaf", "query_leaf_bvh"}})
         expect_refused(bad_data, {"replay", (scratch / "trace").string(), "--order", ordering},
                        {std::string(column) + ".npy", "not among the columns given"});
 }
@@ -172,8 +179,10 @@ TEST(Damaged, TheBinaryRefusesEveryColumnAndWritesNothing) {
         // Weights, photons and rays are no business of a replay.
         const bool replayed = name == "walk" || (name.starts_with("query_") && name != "query_weight");
         if (replayed)
-            expect_refused(bad_data, std::vector<std::string>{"replay", trace.string()} + every_ordering() +
-                                         std::vector<std::string>{"--csv", csv.string()}, {name + ".npy"});
+            expect_refused(bad_data,
+                           std::vector<std::string>{"replay", trace.string()} + every_ordering() +
+                               std::vector<std::string>{"--csv", csv.string()},
+                           {name + ".npy"});
         else
             expect_refused(bad_data, {"info", trace.string(), "--verify"}, {name + ".npy"});
         EXPECT_FALSE(fs::exists(csv));
@@ -188,12 +197,14 @@ TEST(Damaged, TraceJsonIsRefusedByFieldAndFileName) {
     const fs::path trace = copied_trace(scratch), json = trace / "trace.json", csv = scratch / "rows.csv";
     const std::string whole = content(json);
     const auto refused = [&](const std::vector<std::string>& parts) {
-        expect_refused(bad_data, {"replay", trace.string(), "--order", "naive", "tiled", "--csv", csv.string()}, parts);
+        expect_refused(bad_data,
+                       {"replay", trace.string(), "--order", "naive", "tiled", "--csv", csv.string()}, parts);
         EXPECT_FALSE(fs::exists(csv));
     };
     fs::remove(json);
     refused({"trace.json", "finished trace"});
-    for (const std::string& garbage : {std::string(), std::string("\x01{\n\xff"), whole.substr(0, whole.size() / 2)}) {
+    for (const std::string& garbage :
+         {std::string(), std::string("\x01{\n\xff"), whole.substr(0, whole.size() / 2)}) {
         write(json, garbage);
         refused({"trace.json", "no valid JSON"});
     }

@@ -38,7 +38,8 @@ protected:
             load_experiment(file_);
             ADD_FAILURE() << "accepted: " << text;
         } catch (const trace::DataError& error) {
-            EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("experiment.json: "), testing::Not(HasSubstr("\n"))));
+            EXPECT_THAT(error.what(),
+                        testing::AllOf(HasSubstr("experiment.json: "), testing::Not(HasSubstr("\n"))));
             for (const std::string& part : parts_of_message) EXPECT_THAT(error.what(), HasSubstr(part));
         }
     }
@@ -63,7 +64,8 @@ TEST_F(Run, MakesImageRowsAndCharts) {
         EXPECT_THAT(out, HasSubstr((folder_ / file).string()));
     const std::vector<results::Row> all = results::read_csv(folder_ / "rows.csv");
     ASSERT_EQ(all.size(), rows);
-    const std::vector<std::string> names{"naive", "hilbert", "hilbert", "direction-binned", "direction-binned"};
+    const std::vector<std::string> names{"naive", "hilbert", "hilbert", "direction-binned",
+                                         "direction-binned"};
     for (std::size_t r = 0; r < rows; ++r) {
         EXPECT_EQ(all[r].ordering, names[r / 2]);
         EXPECT_EQ(all[r].cache_bytes, r % 2 == 0 ? 2048u : 4096u);
@@ -79,8 +81,9 @@ TEST_F(Run, MakesImageRowsAndCharts) {
 TEST_F(Run, AgreesWithReplay) {
     expect_done(words());
     const auto of_run = results::read_csv(folder_ / "rows.csv");
-    const std::string csv = expect_done({"replay", (folder_ / "trace").string(), "--order", "naive", "hilbert:tile=4",
-                                         "--cache", "2K:128:8", "4K:128:8"}).out;
+    const std::string csv = expect_done({"replay", (folder_ / "trace").string(), "--order", "naive",
+                                         "hilbert:tile=4", "--cache", "2K:128:8", "4K:128:8"})
+                                .out;
     const auto of_replay = results::from_csv(csv, "stdout");
     ASSERT_EQ(of_replay.size(), 4u);
     for (std::size_t r = 0; r < of_replay.size(); ++r) {
@@ -107,7 +110,8 @@ TEST_F(Run, FinishedPartsAreKeptAndAMissingOneIsDone) {
     fs::remove(lost);
     expect_done(words());
     ASSERT_TRUE(fs::exists(lost));
-    for (const auto& [path, time] : written) EXPECT_EQ(fs::last_write_time(path) == time, path != lost) << path;
+    for (const auto& [path, time] : written)
+        EXPECT_EQ(fs::last_write_time(path) == time, path != lost) << path;
 }
 
 TEST_F(Run, AnotherTrialIsAddedToTheFinishedOnes) {
@@ -135,7 +139,8 @@ TEST_F(Run, ADamagedPartIsRefusedByName) {
     expect_done(words());
     const fs::path part = parts().front();
     write(part, content(part).substr(0, content(part).size() / 2));
-    expect_refused(bad_data, {"chart", part.string(), "-o", (scratch_ / "charts").string()}, {part.filename().string()});
+    expect_refused(bad_data, {"chart", part.string(), "-o", (scratch_ / "charts").string()},
+                   {part.filename().string()});
     const Outcome outcome = regather(words());
     EXPECT_EQ(outcome.exit_code, bad_data);
     EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr(part.filename().string()), HasSubstr("line")));

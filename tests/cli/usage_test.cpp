@@ -22,10 +22,13 @@ TEST(Usage, VersionNamesTheRevision) {
     EXPECT_THAT(expect_done({"--version"}).out, testing::MatchesRegex("regather [0-9.]+ \\(.+\\)\n"));
 }
 
-TEST(Usage, ASubcommandIsNeeded) { expect_refused(bad_usage, {}, {"subcommand is required", "regather --help"}); }
+TEST(Usage, ASubcommandIsNeeded) {
+    expect_refused(bad_usage, {}, {"subcommand is required", "regather --help"});
+}
 
 TEST(Usage, AnUnknownSubcommandBringsTheNearest) {
-    expect_refused(bad_usage, {"capure", "room"}, {"'capure'", "expected \"capture\"", "replay", "regather --help"});
+    expect_refused(bad_usage, {"capure", "room"},
+                   {"'capure'", "expected \"capture\"", "replay", "regather --help"});
 }
 
 TEST(Usage, AnUnknownOptionBringsTheNearest) {
@@ -55,7 +58,8 @@ TEST(Usage, ImpossibleCaptureValuesLeaveNoFolder) {
     expect_refused(bad_usage, capture + std::vector<std::string>{"--photons", "99999999999"}, {"--photons"});
     expect_refused(bad_usage, capture + std::vector<std::string>{"--radius", "-1"}, {"--radius", "-1"});
     expect_refused(bad_usage, capture + std::vector<std::string>{"--radius", "nan"}, {"--radius", "nan"});
-    expect_refused(bad_usage, capture + std::vector<std::string>{"--gather-order", "hilbrt"}, {"hilbrt", "hilbert"});
+    expect_refused(bad_usage, capture + std::vector<std::string>{"--gather-order", "hilbrt"},
+                   {"hilbrt", "hilbert"});
     expect_refused(bad_usage, capture + std::vector<std::string>{"--gather-order", "kd-leaf"}, {"kd-leaf"});
     expect_refused(bad_usage, {"capture", "bx", "-o", folder}, {"\"bx\"", "\"box\""});
     expect_refused(bad_data, {"capture", "nowhere/scene.json", "-o", folder}, {"nowhere/scene.json"});
@@ -65,7 +69,8 @@ TEST(Usage, ImpossibleCaptureValuesLeaveNoFolder) {
 TEST(Usage, ImpossibleReplayValuesLeaveNoFile) {
     const Scratch scratch;
     const std::string trace = (captured_box() / "trace").string(), csv = (scratch / "rows.csv").string();
-    const auto refused = [&](const std::string& order, const std::string& cache, const std::vector<std::string>& parts) {
+    const auto refused = [&](const std::string& order, const std::string& cache,
+                             const std::vector<std::string>& parts) {
         expect_refused(bad_usage, {"replay", trace, "--order", order, "--cache", cache, "--csv", csv}, parts);
     };
     refused("naive", "100:3:7", {"found 3", "power of two"});
@@ -78,8 +83,10 @@ TEST(Usage, ImpossibleReplayValuesLeaveNoFile) {
     refused("hilbert:tile=0", "128K:128:8", {"hilbert", "tile", "0"});
     refused("hilbert:tile=big", "128K:128:8", {"hilbert", "tile", "big"});
     refused("./no_such_library.so", "128K:128:8", {"no_such_library.so"});
-    expect_refused(bad_usage, {"replay", trace, "--order", "naive", "--onchip", "much", "--csv", csv}, {"'much'"});
-    expect_refused(bad_data, {"replay", (scratch / "none").string(), "--order", "naive"}, {"none", "no such folder"});
+    expect_refused(bad_usage, {"replay", trace, "--order", "naive", "--onchip", "much", "--csv", csv},
+                   {"'much'"});
+    expect_refused(bad_data, {"replay", (scratch / "none").string(), "--order", "naive"},
+                   {"none", "no such folder"});
     EXPECT_TRUE(std::filesystem::is_empty(scratch.path()));
 }
 

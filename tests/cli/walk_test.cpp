@@ -14,7 +14,8 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using trace::Vec3;
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+constexpr float nan = std::numeric_limits<float>::quiet_NaN(),
+                infinity = std::numeric_limits<float>::infinity();
 
 /// As numpy.save writes it: a header of 128 bytes.
 std::string numpy_file(const std::string& descr, const std::string& shape, const std::string& rows) {
@@ -46,7 +47,8 @@ protected:
         return std::vector<std::string>{"walk", columns_.string(), "-o", trace_.string(), "--k", "8"} + more;
     }
     void expect_replayed(const std::string& ordering, std::uint64_t queries) const {
-        const std::string csv = expect_done({"replay", trace_.string(), "--order", ordering, "--cache", "1K:64:2"}).out;
+        const std::string csv =
+            expect_done({"replay", trace_.string(), "--order", ordering, "--cache", "1K:64:2"}).out;
         EXPECT_EQ(results::from_csv(csv, "stdout").at(0).queries, queries);
         EXPECT_NO_THROW(trace::TraceReader(trace_).verify_all());
     }
@@ -63,7 +65,8 @@ TEST_F(Walk, TwoColumnsAreEnough) {
     EXPECT_THAT(expect_done(words()).out, HasSubstr("64 photons, 4 queries"));
     expect_replayed("hilbert", 4);
     EXPECT_THAT(expect_done({"info", trace_.string()}).out,
-                testing::AllOf(HasSubstr("scene      mine"), HasSubstr("4 x 1 pixels"), HasSubstr("8.0 photons found")));
+                testing::AllOf(HasSubstr("scene      mine"), HasSubstr("4 x 1 pixels"),
+                               HasSubstr("8.0 photons found")));
 }
 
 TEST_F(Walk, EveryColumnServesItsOrdering) {
@@ -74,7 +77,8 @@ TEST_F(Walk, EveryColumnServesItsOrdering) {
     column("query_leaf_bvh", std::vector<std::uint32_t>{0, 0, 1, 1});
     expect_done(words({"--width", "4"}));
     EXPECT_THAT(expect_done({"info", trace_.string()}).out, HasSubstr("4 x 2 pixels"));
-    for (const char* ordering : {"naive", "tiled", "direction-binned", "kd-leaf", "bvh-leaf"}) expect_replayed(ordering, 4);
+    for (const char* ordering : {"naive", "tiled", "direction-binned", "kd-leaf", "bvh-leaf"})
+        expect_replayed(ordering, 4);
 }
 
 TEST_F(Walk, ColumnsOfNumPyAreTaken) {
@@ -138,7 +142,8 @@ TEST_F(Walk, AFinishedTraceOutlivesBadColumns) {
 
 TEST_F(Walk, TheColumnsFolderIsNoPlaceForTheTrace) {
     const auto before = contents(columns_);
-    expect_refused(bad_usage, {"walk", columns_.string(), "-o", columns_.string(), "--force"}, {"photon_position.npy"});
+    expect_refused(bad_usage, {"walk", columns_.string(), "-o", columns_.string(), "--force"},
+                   {"photon_position.npy"});
     EXPECT_EQ(contents(columns_), before);
 }
 
