@@ -13,7 +13,7 @@ namespace regather::results {
 namespace {
 
 // All in SVG pixels.
-constexpr double left = 84, top = 78, bottom = 54, between = 44, legend_line = 20, sample = 56, letter = 6.4;
+constexpr double left = 94, top = 78, bottom = 54, between = 44, legend_line = 20, sample = 56, letter = 6.4;
 constexpr double right = left + 470, single_height = 430, double_height = 270;
 
 constexpr const char* solid_dashes[] = {"solid", "(6,3)", "(2,3)", "(10,3,2,3)"};
@@ -195,7 +195,7 @@ private:
         say("set tmargin at screen {:.5f}\nset bmargin at screen {:.5f}\n", y_at(panel_top),
             y_at(panel_top + panel_height_));
         vertical_range(panel);
-        label(4, panel.label, x_at(16), y_at(panel_top + panel_height_ / 2), "center rotate by 90");
+        label(4, panel.label, x_at(12), y_at(panel_top + panel_height_ / 2), "center rotate by 90");
         std::string zeros;
         for (const Curve& curve : curves_)
             if (all_zero(curve, panel)) zeros += (zeros.empty() ? "" : "; ") + curve.label;

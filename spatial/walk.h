@@ -56,6 +56,7 @@ private:
     }
     /// The upper bytes of a word.
     void append(std::uint64_t word, std::size_t count) {
+        if (count == 0) return;
         const std::uint64_t swapped = __builtin_bswap64(word);
         const std::size_t at = bytes_.size();
         bytes_.resize(at + count);
