@@ -6,57 +6,20 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
+#include "bench/room.h"
 #include "cachesim/cache.h"
 #include "cachesim/lines.h"
-#include "capture/photon_pass.h"
-#include "capture/query_pass.h"
 #include "replay/replay.h"
-#include "reorder/catalogue.h"
-#include "scenes/loader.h"
 #include "spatial/nearest.h"
-#include "spatial/recording.h"
 #include "spatial/walk.h"
 
 namespace {
 
 using namespace regather;
 
-constexpr std::uint32_t photon_count = 1'000'000, k = 100;
-
-/// The scene `room` with the paper's photons and gathers, at 45 x 45 pixels.
-struct Room {
-    std::vector<trace::Photon> heap;
-    capture::Queries queries;
-    spatial::Recording recording;
-
-    Room() {
-        const scenes::Scene scene = scenes::load_scene("room");
-        const capture::RayCaster caster(scene);
-        heap = spatial::left_balanced(capture::trace_photons(scene, caster, {.photons = photon_count, .seed = 1}).photons);
-        capture::PixelWork work;
-        const capture::QueryConfig config{.width = 45, .height = 45, .gather_rays = 100, .shadow_rays = 0,
-                                          .max_specular = 16, .seed = 1};
-        capture::QueryPass(scene, caster, config, false).run(0, 45 * 45, work);
-        queries = std::move(work.queries);
-        recording = spatial::record_walks(spatial::PhotonKd(heap), queries.position, k,
-                                          std::numeric_limits<float>::infinity());
-    }
-    std::vector<std::uint32_t> permutation(const char* ordering) const {
-        const reorder::Workload work{.position = queries.position, .direction = queries.direction,
-                                     .pixel = queries.pixel, .leaf_kd = {}, .leaf_bvh = {},
-                                     .bounds = trace::bounds_of(queries.position), .image_width = 45,
-                                     .image_height = 45};
-        return reorder::order(*reorder::make_ordering(ordering), work).permutation;
-    }
-};
-
-const Room& room() {
-    static const Room instance;
-    return instance;
-}
+using bench::k, bench::photon_count, bench::room;
 
 constexpr std::array<const char*, 2> orderings{"naive", "hilbert"};
 
@@ -99,7 +62,9 @@ void search_again_and_simulate(benchmark::State& state) {
     const spatial::PhotonKd tree(room().heap);
     const replay::WalkStore walks(photon_count, room().recording.walk_bytes, room().recording.walks);
     const std::array<cachesim::CacheConfig, 1> caches{};
-    const std::uint64_t expected = replay::replay(walks, {}, order, caches).caches[0].misses;
+    const replay::ReplayConfig config{{caches.begin(), caches.end()}, false};
+    const std::uint64_t expected =
+        replay::replay(walks, {}, order, config, replay::count_revisits(walks, {}, config)).caches[0].misses;
     spatial::NearestSet found(k);
     for (auto unused : state) {
         Simulate simulate;
@@ -117,7 +82,7 @@ void decode(benchmark::State& state) {
     const std::vector<std::uint32_t> order = room().permutation(orderings[static_cast<std::size_t>(state.range(0))]);
     const replay::WalkStore walks(photon_count, room().recording.walk_bytes, room().recording.walks);
     for (auto unused : state) {
-        const replay::Replayed replayed = replay::replay(walks, {}, order, {});
+        const replay::Replayed replayed = replay::replay(walks, {}, order, {}, {});
         if (replayed.visited_nodes != room().recording.visited_nodes) state.SkipWithError("another number of nodes");
     }
     rate(state);
@@ -130,9 +95,11 @@ void replay_and_simulate(benchmark::State& state) {
     const std::vector<std::uint32_t> order = room().permutation(orderings[static_cast<std::size_t>(state.range(0))]);
     const replay::WalkStore walks(photon_count, room().recording.walk_bytes, room().recording.walks);
     const std::array<cachesim::CacheConfig, 1> caches{};
+    const replay::ReplayConfig config{{caches.begin(), caches.end()}, false};
+    const replay::Revisits revisits = replay::count_revisits(walks, {}, config);
     double accesses = 0;
     for (auto unused : state) {
-        const replay::Replayed replayed = replay::replay(walks, {}, order, caches);
+        const replay::Replayed replayed = replay::replay(walks, {}, order, config, revisits);
         if (replayed.visited_nodes != room().recording.visited_nodes) state.SkipWithError("another number of nodes");
         accesses = static_cast<double>(replayed.caches[0].accesses);
     }

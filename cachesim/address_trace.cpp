@@ -22,6 +22,7 @@ class AddressTrace::Source {
 public:
     virtual ~Source() = default;
     virtual std::span<const ByteAccess> next() = 0;
+    virtual Position position() const = 0;
 };
 
 namespace {
@@ -131,6 +132,7 @@ public:
         row_ += count;
         return {batch_.data(), count};
     }
+    AddressTrace::Position position() const override { return {row_, addresses_.size(), "records"}; }
 
 private:
     void expect_same_rows(const IntegerColumn& column) const {
@@ -186,6 +188,9 @@ public:
     explicit DinSource(const path& name)
         : name_(name), file_(open(name, "an address trace (.npy or din)")), buffer_(buffer_bytes) {
         batch_.reserve(batch_records);
+        std::error_code no_file;
+        if (std::filesystem::is_regular_file(name, no_file))
+            bytes_ = std::filesystem::file_size(name, no_file);
         refill();
     }
 
@@ -199,6 +204,9 @@ public:
             throw trace::DataError(
                 fmt::format("{}: line 1: found 0 bytes, expected a label and an address", name_.string()));
         return batch_;
+    }
+    AddressTrace::Position position() const override {
+        return {std::min(read_ - (end_ - begin_), bytes_), bytes_, "B"};
     }
 
 private:
@@ -230,7 +238,9 @@ private:
         std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
         end_ -= begin_;
         begin_ = 0;
-        end_ += std::fread(buffer_.data() + end_, 1, buffer_.size() - end_, file_.get());
+        const std::size_t got = std::fread(buffer_.data() + end_, 1, buffer_.size() - end_, file_.get());
+        end_ += got;
+        read_ += got;
         if (std::ferror(file_.get()))
             throw trace::DataError(fmt::format("{}: cannot read: {}", name_.string(), std::strerror(errno)));
     }
@@ -283,7 +293,8 @@ private:
     path name_;
     File file_;
     std::vector<char> buffer_;
-    std::size_t begin_ = 0, end_ = 0;  // of the unread bytes
+    std::size_t begin_ = 0, end_ = 0;     // of the unread bytes
+    std::uint64_t read_ = 0, bytes_ = 0;  // into the buffer so far; in the file, 0 if unknown
     std::uint64_t line_ = 0;
     std::vector<ByteAccess> batch_;
 };
@@ -309,6 +320,10 @@ AddressTrace& AddressTrace::operator=(AddressTrace&&) noexcept = default;
 
 std::span<const ByteAccess> AddressTrace::next() {
     return source_->next();
+}
+
+AddressTrace::Position AddressTrace::position() const {
+    return source_->position();
 }
 
 }  // namespace regather::cachesim

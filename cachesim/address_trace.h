@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string_view>
 
 #include "cachesim/lines.h"
 
@@ -36,6 +37,11 @@ public:
 
     /// The next records, valid until the next call; empty at the end.
     std::span<const ByteAccess> next();
+    struct Position {
+        std::uint64_t done = 0, total = 0;  ///< total 0: unknown (a pipe).
+        std::string_view unit;              ///< What they count: records of columns, bytes of din text.
+    };
+    Position position() const;
 
     class Source;  ///< One for each format.
 private:

@@ -1,5 +1,5 @@
-// regather cachesim -- a user's address trace through LRU caches: every size x line x ways in one pass over
-// the file.
+// regather cachesim -- a user's address trace through caches: every size x line x ways x policy in one pass
+// over the file.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -15,8 +15,10 @@
 #include <vector>
 
 #include "cachesim/address_trace.h"
-#include "cachesim/sweep.h"
+#include "cachesim/policy_sweep.h"
 #include "cli/commands.h"
+#include "cli/machine.h"
+#include "cli/progress.h"
 #include "cli/size.h"
 #include "trace/error.h"
 #include "trace/file.h"
@@ -27,7 +29,11 @@ namespace {
 
 struct Options {
     cachesim::AddressFiles files;
-    std::string sizes, lines, ways;
+    std::string sizes, lines, ways, policies = "lru", machines;
+    std::string write = "back", write_miss = "allocate", index = "modulo";
+    std::uint64_t seed = 0;
+    bool no_3c = false;
+    std::uint64_t opt_limit = cachesim::PolicySweepOptions{}.opt_limit;
     std::filesystem::path csv;
     bool force = false;
 };
@@ -58,33 +64,62 @@ std::uint32_t parse_ways(std::string_view text) {
     return ways;
 }
 
-std::vector<cachesim::CacheConfig> combinations(const Options& options) {
-    std::vector<cachesim::CacheConfig> configs;
+std::vector<cachesim::PolicyConfig> combinations(const Options& options) {
+    for (const auto& [name, list] :
+         {std::pair{"--size", &options.sizes}, {"--line", &options.lines}, {"--ways", &options.ways}})
+        if (list->empty())
+            throw trace::UsageError(fmt::format("{}: found none, expected one (or --machine)", name));
+    std::vector<cachesim::PolicyConfig> configs;
     for (const std::string_view size : split(options.sizes))
         for (const std::string_view line : split(options.lines))
-            for (const std::string_view ways : split(options.ways)) {
-                configs.push_back({parse_size(size), parse_line(line), parse_ways(ways)});
-                try {
-                    check(configs.back());
-                } catch (const trace::UsageError& error) {
-                    throw trace::UsageError(
-                        fmt::format("--size {} --line {} --ways {}: {}", size, line, ways, error.what()));
+            for (const std::string_view ways : split(options.ways))
+                for (const std::string_view policy : split(options.policies)) {
+                    configs.push_back({{parse_size(size), parse_line(line), parse_ways(ways)},
+                                       cachesim::parse_policy(policy),
+                                       cachesim::parse_write_policy(options.write),
+                                       cachesim::parse_write_miss(options.write_miss),
+                                       cachesim::parse_set_index(options.index),
+                                       options.seed});
+                    try {
+                        check(configs.back());
+                    } catch (const trace::UsageError& error) {
+                        throw trace::UsageError(fmt::format("--size {} --line {} --ways {} --policy {}: {}",
+                                                            size, line, ways, policy, error.what()));
+                    }
                 }
-            }
     return configs;
 }
 
-std::string table(std::span<const cachesim::LruCache> caches) {
-    std::string rows = "policy,size_bytes,line_bytes,ways,accesses,misses,traffic_bytes\n";
-    for (const cachesim::LruCache& cache : caches) {
-        const cachesim::CacheConfig& config = cache.config();
-        const cachesim::CacheStats stats = cache.total();
-        const std::string ways =
-            config.ways == cachesim::fully_associative ? "full" : fmt::format("{}", config.ways);
-        rows += fmt::format("lru,{},{},{},{},{},{}\n", config.size_bytes, config.line_bytes, ways,
-                            stats.accesses, stats.misses, cache.traffic_bytes());
+std::string table(std::span<const cachesim::PolicyRow> results) {
+    std::string rows =
+        "policy,size_bytes,line_bytes,ways,accesses,hits,misses,compulsory,capacity,conflict,writebacks,"
+        "writes_through,traffic_bytes\n";
+    for (const auto& [config, stats, classes] : results) {
+        const auto& [size_bytes, line_bytes, ways] = config.geometry;
+        rows += fmt::format(
+            "{},{},{},{},{},{},{},{},{},{},{}\n", name_of(config.policy), size_bytes, line_bytes,
+            ways == cachesim::fully_associative ? "full" : fmt::format("{}", ways), stats.accesses,
+            stats.hits(), stats.misses,
+            classes ? fmt::format("{},{},{}", classes->compulsory, classes->capacity, classes->conflict)
+                    : ",,",
+            stats.writebacks, stats.passed_writes, stats.traffic_bytes(line_bytes));
     }
     return rows;
+}
+
+std::vector<cachesim::PolicyRow> simulate(const Options& options,
+                                          std::span<const cachesim::PolicyConfig> configs) {
+    cachesim::AddressTrace trace(options.files);
+    cachesim::PolicySweep sweep(configs, {!options.no_3c, options.opt_limit});
+    Progress progress;
+    for (auto records = trace.next(); !records.empty(); records = trace.next()) {
+        sweep.access(records);
+        const auto [done, total, unit] = trace.position();
+        if (total != 0) progress.update("cachesim", unit, done, total);
+    }
+    return sweep.finish([&](std::uint64_t done, std::uint64_t total) {
+        progress.update("cachesim: opt", "accesses", done, total);
+    });
 }
 
 void write_all(std::FILE* file, std::string_view text, const std::string& name) {
@@ -93,17 +128,18 @@ void write_all(std::FILE* file, std::string_view text, const std::string& name) 
 }
 
 void run(const Options& options) {
-    const std::vector<cachesim::CacheConfig> configs = combinations(options);
+    std::vector<cachesim::Machine> machines;
+    std::vector<cachesim::PolicyConfig> configs;
+    if (options.machines.empty())
+        configs = combinations(options);
+    else
+        machines = load_machines(options.machines);
     if (!options.csv.empty() && !options.force && std::filesystem::exists(options.csv))
         throw trace::UsageError(fmt::format("--csv {}: found a file, expected none (--force overwrites it)",
                                             options.csv.string()));
 
-    cachesim::AddressTrace trace(options.files);
-    cachesim::Sweep sweep(configs);
-    for (auto records = trace.next(); !records.empty(); records = trace.next()) sweep.access(records);
-    sweep.flush();
-
-    const std::string rows = table(sweep.caches());
+    const std::string rows =
+        machines.empty() ? table(simulate(options, configs)) : run_machines(machines, options.files);
     if (options.csv.empty())
         write_all(stdout, rows, "stdout");
     else
@@ -113,17 +149,45 @@ void run(const Options& options) {
 }  // namespace
 
 void add_cachesim(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("cachesim", "Simulate LRU caches on an address trace of your own");
+    CLI::App* command = app.add_subcommand("cachesim", "Simulate caches on an address trace of your own");
     auto options = std::make_shared<Options>();
     command
         ->add_option(
             "ADDRESSES", options->files.addresses,
             "A .npy of uint64 byte addresses, or Dinero din text (label and hexadecimal address a line)")
         ->required();
-    command->add_option("--size", options->sizes, "Cache sizes in bytes: 4096, 16K, 1M")->required();
-    command->add_option("--line", options->lines, "Line sizes in bytes, powers of two")->required();
-    command->add_option("--ways", options->ways, "Ways: 1 is direct mapped, full is fully associative")
-        ->required();
+    CLI::Option* const sizes =
+        command->add_option("--size", options->sizes, "Cache sizes in bytes: 4096, 16K, 1M");
+    CLI::Option* const lines =
+        command->add_option("--line", options->lines, "Line sizes in bytes, powers of two");
+    CLI::Option* const ways =
+        command->add_option("--ways", options->ways, "Ways: 1 is direct mapped, full is fully associative");
+    command
+        ->add_option("--machine", options->machines,
+                     "In place of the three: memory systems, by name (see regather machines) or file")
+        ->excludes(sizes)
+        ->excludes(lines)
+        ->excludes(ways);
+    command
+        ->add_option("--policy", options->policies, "What is replaced: lru, fifo, plru, srrip, random, opt")
+        ->capture_default_str();
+    command->add_option("--write", options->write, "back: dirty lines are written back; through: every write")
+        ->capture_default_str();
+    command
+        ->add_option("--write-miss", options->write_miss,
+                     "allocate: fetches the line; no-allocate: the write goes past the cache")
+        ->capture_default_str();
+    command
+        ->add_option("--index", options->index,
+                     "Set of a line: modulo, or hashed (all bits of its number, XORed)")
+        ->capture_default_str();
+    command->add_option("--seed", options->seed, "Of the policy random")->capture_default_str();
+    command->add_flag("--no-3c", options->no_3c,
+                      "Leave compulsory, capacity and conflict empty: lru is several times faster");
+    command
+        ->add_option("--opt-limit", options->opt_limit,
+                     "Most line accesses kept in memory for opt, 8 bytes each, for each line size")
+        ->capture_default_str();
     command->add_option("--csv", options->csv, "Write the table here; without it, to stdout");
     command->add_option("--sizes", options->files.sizes,
                         "Bytes of each access: .npy of uint8, uint32 or uint64 (default: 1 each)");
@@ -131,11 +195,15 @@ void add_cachesim(CLI::App& app) {
                         "What each access is: .npy of uint8 or bool, 0 read, 1 write (default: all read)");
     command->add_flag("--force", options->force, "Overwrite the CSV file");
     command->footer(
-        "Lists are separated by commas; every combination is a row, all from one pass over the trace.\n"
+        "Lists (of sizes, lines, ways and policies) are separated by commas; every combination is a row, all "
+        "from\n"
+        "one pass over the trace.\n"
         "Lines still dirty at the end count as written back.\n"
         "Examples:\n"
         "  regather cachesim addresses.npy --size 16K,128K --line 64,128 --ways 1,8,full --csv misses.csv\n"
-        "  regather cachesim program.din --size 32K --line 64 --ways 8");
+        "  regather cachesim program.din --size 32K --line 64 --ways 8 --policy lru,plru,opt --write "
+        "through\n"
+        "  regather cachesim addresses.npy --machine paper-128k,gpu-a100 --csv levels.csv");
     command->callback([options] { run(*options); });
 }
 

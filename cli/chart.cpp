@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "cli/commands.h"
+#include "results/accuracy.h"
 #include "results/chart.h"
 #include "results/csv.h"
 #include "trace/error.h"
+#include "trace/file.h"
 
 namespace regather::cli {
 namespace {
@@ -22,13 +24,41 @@ struct Request {
     bool force = false;
 };
 
-void refuse_to_overwrite(const Request& request) {
-    std::vector<std::string> kinds = request.kinds;
-    if (kinds.empty())
-        for (const auto& kind : results::chart_kinds()) kinds.emplace_back(kind.name);
-    for (const std::string& kind : kinds)
+/// The rows of all files, each by the kind that its header tells.
+struct Tables {
+    std::vector<results::Row> measurements;
+    std::vector<results::DetailRow> details;
+    std::vector<results::TimelineRow> timeline;
+    std::vector<results::SamplingRow> sampling;
+
+    void add(const std::string& file) {
+        const std::string text = trace::read_file(file);
+        switch (results::row_kind(text, file)) {
+            case results::RowKind::measurement:
+                return append(measurements, text, file);
+            case results::RowKind::detail:
+                return append(details, text, file);
+            case results::RowKind::timeline:
+                return append(timeline, text, file);
+            case results::RowKind::sampling:
+                return append(sampling, text, file);
+        }
+    }
+    results::Rows rows() const { return {measurements, details, timeline, sampling}; }
+
+private:
+    template <class R>
+    static void append(std::vector<R>& all, std::string_view text, std::string_view file) {
+        const auto more = results::from_csv<R>(text, file);
+        all.insert(all.end(), more.begin(), more.end());
+    }
+};
+
+void refuse_to_overwrite(const Request& request, std::span<const results::ChartKind* const> kinds) {
+    for (const results::ChartKind* kind : kinds)
         for (const char* ending : {".svg", ".png"})
-            if (const auto file = std::filesystem::path(request.folder) / (kind + ending);
+            if (const auto file =
+                    std::filesystem::path(request.folder) / fmt::format("{}{}", kind->name, ending);
                 std::filesystem::exists(file))
                 throw trace::UsageError(fmt::format("{} exists; --force replaces it", file.string()));
 }
@@ -39,18 +69,21 @@ void run(const Request& request) {
     options.bins = request.bins;
     if (!request.cache.empty()) options.cache = results::parse_geometry(request.cache);
     for (const std::string& kind : request.kinds) results::chart_kind(kind);
-    if (!request.force) refuse_to_overwrite(request);
 
-    std::vector<results::Row> rows;
-    for (const std::string& file : request.csv) {
-        const auto more = results::read_csv(file);
-        rows.insert(rows.end(), more.begin(), more.end());
-    }
+    Tables tables;
+    for (const std::string& file : request.csv) tables.add(file);
+    const results::Rows rows = tables.rows();
+    const auto kinds = results::wanted_kinds(rows, request.kinds);
+    if (kinds.empty())
+        throw trace::DataError(fmt::format("{}: no rows, expected at least one", request.csv[0]));
+    if (!request.force) refuse_to_overwrite(request, kinds);
     bool any = false;
     std::string skipped;
     for (const auto& drawn : results::write_charts(request.folder, rows, request.kinds, options)) {
         for (const auto& file : drawn.files) fmt::print("{}\n", file.string());
         any |= !drawn.files.empty();
+        if (drawn.kind == "sampling-error" && !drawn.files.empty())
+            fmt::print("{}", results::accuracy_table(rows.sampling));
         if (drawn.skipped.empty()) continue;
         const std::string line = fmt::format("{}: not drawn: {}", drawn.kind, drawn.skipped);
         fmt::print("{}\n", line);
@@ -67,7 +100,8 @@ std::string footer() {
     return out +
            "\nExamples:\n"
            "  regather chart runs/room/results.csv -o runs/room/charts\n"
-           "  regather chart mine.csv -o charts --kind traffic-by-tile --cache 64K:64:full --force\n";
+           "  regather chart mine.csv -o charts --kind traffic-by-tile --cache 64K:64:full --force\n"
+           "  regather chart rows.csv sampling.csv -o charts\n";
 }
 
 }  // namespace
@@ -75,7 +109,8 @@ std::string footer() {
 void add_chart(CLI::App& app) {
     auto request = std::make_shared<Request>();
     CLI::App* chart = app.add_subcommand("chart", "Draws charts (SVG and PNG) from CSV rows");
-    chart->add_option("CSV", request->csv, "Files of rows, taken together")->required();
+    chart->add_option("CSV", request->csv, "Files of rows, taken together; the header tells the kind of each")
+        ->required();
     chart->add_option("-o,--output", request->folder, "Folder for the charts, made when missing")->required();
     chart->add_option("--kind", request->kinds, "Which charts; without it, each that the rows allow")
         ->delimiter(',');

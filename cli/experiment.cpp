@@ -30,7 +30,7 @@ auto at(const Object& object, std::string_view key, const Make& make) {
     }
 }
 
-std::vector<cachesim::CacheConfig> parse_caches(const Object& owner) {
+std::vector<cachesim::CacheConfig> listed_caches(const Object& owner) {
     static constexpr std::array<std::string_view, 3> keys{"size", "line", "ways"};
     std::vector<cachesim::CacheConfig> caches;
     const json& list = owner.array("caches");
@@ -40,7 +40,7 @@ std::vector<cachesim::CacheConfig> parse_caches(const Object& owner) {
             for (const std::string& line : entry.list("line", {"128"}))
                 for (const std::string& ways : entry.list("ways", {"8"}))
                     caches.push_back(at(owner, fmt::format("caches[{}]", i),
-                                        [&] { return parse_cache(fmt::format("{}:{}:{}", size, line, ways)); }));
+                                        [&] { return parse_caches(fmt::format("{}:{}:{}", size, line, ways)).front(); }));
     }
     return caches;
 }
@@ -88,7 +88,8 @@ Experiment load_experiment(const std::filesystem::path& path) {
     } catch (const json::exception& error) {
         throw trace::DataError(fmt::format("{}: found no valid JSON ({})", path.string(), error.what()));
     }
-    static constexpr std::array<std::string_view, 5> keys{"scene", "capture", "orderings", "caches", "onchip"};
+    static constexpr std::array<std::string_view, 8> keys{"scene",  "capture", "orderings", "caches",
+                                                          "onchip", "classes", "sample",    "sample_seed"};
     const Object in(root, keys, path.string(), "");
     Experiment experiment;
     experiment.scene = in.text("scene");
@@ -104,7 +105,14 @@ Experiment load_experiment(const std::filesystem::path& path) {
         experiment.onchip_bytes = at(in, "onchip", [&] { return parse_size(sizes.front()); });
     }
     const std::vector<cachesim::CacheConfig> caches =
-        in.has("caches") ? parse_caches(in) : std::vector<cachesim::CacheConfig>{cachesim::CacheConfig{}};
+        in.has("caches") ? listed_caches(in) : std::vector<cachesim::CacheConfig>{cachesim::CacheConfig{}};
+
+    experiment.method.classes = in.flag("classes", false);
+    if (const std::uint64_t one_of = in.number("sample", 1, 1, 1024); one_of != 1) {
+        if (experiment.method.classes) in.refuse("classes", "true beside \"sample\"", "one of them");
+        experiment.method.sampling = replay::Sampling{static_cast<std::uint32_t>(one_of),
+                                                      in.number("sample_seed", 1, 0, ~std::uint64_t{0})};
+    }
 
     const json& list = in.array("orderings");
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -117,7 +125,12 @@ Experiment load_experiment(const std::filesystem::path& path) {
         const std::string name = object.text("ordering");
         for (const std::string& spec : specs(entry, object, name))
             experiment.trials.push_back({at(in, place, [&] { return reorder::parse_ordering(spec); }),
-                                         object.has("caches") ? parse_caches(object) : caches, library_digest(name)});
+                                         object.has("caches") ? listed_caches(object) : caches, library_digest(name)});
+        if (experiment.method.sampling)
+            at(in, "sample", [&] {
+                replay::SetSample::check(experiment.trials.back().caches, *experiment.method.sampling);
+                return 0;
+            });
     }
     return experiment;
 }

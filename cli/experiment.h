@@ -8,6 +8,7 @@
 
 #include "cachesim/cache.h"
 #include "cli/capture_options.h"
+#include "cli/measurement.h"
 #include "reorder/catalogue.h"
 
 namespace regather::cli {
@@ -24,6 +25,7 @@ struct Experiment {
     CaptureOptions capture;
     std::vector<Trial> trials;  ///< Lists of parameter values are multiplied out, keys in alphabetical order, the last fastest.
     std::uint64_t onchip_bytes = reorder::default_onchip_bytes;
+    Method method;
 };
 
 /// Throws trace::DataError (file, key, found, expected); bad orderings and caches included.

@@ -77,7 +77,11 @@ int main(int argc, char** argv) {
     cli::add_capture(app);
     cli::add_walk(app);
     cli::add_replay(app);
+    cli::add_detail(app);
+    cli::add_race(app);
+    cli::add_sampling(app);
     cli::add_cachesim(app);
+    cli::add_machines(app);
     cli::add_chart(app);
     cli::add_run(app);
     cli::add_info(app);

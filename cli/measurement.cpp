@@ -9,27 +9,43 @@
 
 namespace regather::cli {
 
-cachesim::CacheConfig parse_cache(std::string_view text) {
-    const auto refuse = [&]() -> cachesim::CacheConfig {
-        throw trace::UsageError(fmt::format("cache: found '{}', expected SIZE:LINE:WAYS as in 128K:128:8 or 16K:64:full",
-                                            text));
+namespace {
+
+std::vector<std::string_view> split(std::string_view list, char at) {
+    std::vector<std::string_view> parts;
+    for (std::size_t next; (next = list.find(at)) != list.npos; list.remove_prefix(next + 1))
+        parts.push_back(list.substr(0, next));
+    parts.push_back(list);
+    return parts;
+}
+
+}  // namespace
+
+std::vector<cachesim::CacheConfig> parse_caches(std::string_view text) {
+    const auto refuse = [&] {
+        throw trace::UsageError(fmt::format(
+            "cache: found '{}', expected SIZE:LINE:WAYS as in 128K:128:8, 16K:64:full or 16K,32K:128:1,2,4", text));
     };
-    const std::size_t first = text.find(':'), second = text.find(':', first + 1);
-    if (first == std::string_view::npos || second == std::string_view::npos) return refuse();
-    const std::string_view ways = text.substr(second + 1);
-    cachesim::CacheConfig cache;
-    cache.size_bytes = parse_size(text.substr(0, first));
-    const std::uint64_t line = parse_size(text.substr(first + 1, second - first - 1));
-    if (line > 0xffffffffu) return refuse();
-    cache.line_bytes = static_cast<std::uint32_t>(line);
-    if (ways == "full") {
-        cache.ways = cachesim::fully_associative;
-    } else {
-        const auto [end, error] = std::from_chars(ways.data(), ways.data() + ways.size(), cache.ways);
-        if (error != std::errc{} || end != ways.data() + ways.size() || cache.ways == 0) return refuse();
-    }
-    cachesim::check(cache);
-    return cache;
+    const std::vector<std::string_view> fields = split(text, ':');
+    if (fields.size() != 3) refuse();
+    std::vector<cachesim::CacheConfig> caches;
+    for (const std::string_view size : split(fields[0], ','))
+        for (const std::string_view line : split(fields[1], ','))
+            for (const std::string_view ways : split(fields[2], ',')) {
+                cachesim::CacheConfig& cache = caches.emplace_back();
+                cache.size_bytes = parse_size(size);
+                const std::uint64_t line_bytes = parse_size(line);
+                if (line_bytes > 0xffffffffu) refuse();
+                cache.line_bytes = static_cast<std::uint32_t>(line_bytes);
+                if (ways == "full") {
+                    cache.ways = cachesim::fully_associative;
+                } else {
+                    const auto [end, error] = std::from_chars(ways.data(), ways.data() + ways.size(), cache.ways);
+                    if (error != std::errc{} || end != ways.data() + ways.size() || cache.ways == 0) refuse();
+                }
+                cachesim::check(cache);
+            }
+    return caches;
 }
 
 std::string cache_text(const cachesim::CacheConfig& cache) {
@@ -64,10 +80,34 @@ void Measurement::find_compulsory(std::span<const std::uint32_t> line_sizes) {
         compulsory_bytes[line] = replay::compulsory_bytes(touched, layout_, line);
 }
 
+void Measurement::prepare(std::span<const cachesim::CacheConfig> caches, const Method& method,
+                          const std::function<void(std::uint64_t)>& progress) {
+    method_ = method;
+    if (method.sampling) {
+        replay::SetSample::check(caches, *method.sampling);
+        line_use_ = replay::count_line_use(walks_, layout_, caches, progress);
+    } else {
+        revisits_ = replay::count_revisits(walks_, layout_, {{caches.begin(), caches.end()}, method.classes}, progress);
+    }
+}
+
+void Measurement::prepare(const replay::Revisits& revisits, const Method& method) {
+    method_ = method;
+    revisits_ = revisits;
+}
+
+replay::Replayed Measurement::replayed(std::span<const std::uint32_t> permutation,
+                                       std::span<const cachesim::CacheConfig> caches,
+                                       const std::function<void(std::uint64_t)>& progress) const {
+    if (method_.sampling)
+        return replay::SetSample(walks_, layout_, caches, *method_.sampling, line_use_).replay(permutation, progress);
+    return replay::replay(walks_, layout_, permutation, {{caches.begin(), caches.end()}, method_.classes}, revisits_, progress);
+}
+
 std::vector<results::Row> Measurement::rows(const reorder::OrderingSpec& spec, const reorder::Ordered& ordered,
                                             std::span<const cachesim::CacheConfig> caches,
                                             const std::function<void(std::uint64_t)>& progress) const {
-    const replay::Replayed replayed = replay::replay(walks_, layout_, ordered.permutation, caches, progress);
+    const replay::Replayed replayed = this->replayed(ordered.permutation, caches, progress);
     const reorder::Cost& cost = ordered.cost;
     std::vector<results::Row> rows;
     for (const replay::CacheTraffic& traffic : replayed.caches) {
@@ -91,6 +131,19 @@ std::vector<results::Row> Measurement::rows(const reorder::OrderingSpec& spec, c
             row.compulsory_bytes = known->second;
         row.misses = traffic.misses;
         row.traffic_bytes = traffic.traffic_bytes;
+        if (traffic.classes) {
+            row.compulsory = traffic.classes->compulsory;
+            row.capacity = traffic.classes->capacity;
+            row.conflict = traffic.classes->conflict;
+        }
+        if (traffic.error) {
+            row.set_sampling = method_.sampling->one_of;
+            row.sampled_sets = traffic.error->sampled_sets;
+            row.misses_stderr = traffic.error->standard_error;
+            row.misses_low = traffic.error->low;
+            row.misses_high = traffic.error->high;
+        }
+        row.onchip_bytes = onchip_bytes_;
         row.keys = cost.keys;
         row.key_ops = cost.key_ops;
         row.sort_passes = cost.sort_passes;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,14 +11,21 @@
 #include "cachesim/cache.h"
 #include "reorder/catalogue.h"
 #include "replay/replay.h"
+#include "replay/set_sample.h"
 #include "results/row.h"
 #include "trace/folder.h"
 
 namespace regather::cli {
 
-/// "128K:128:8" or "128K:128:full". Throws trace::UsageError.
-cachesim::CacheConfig parse_cache(std::string_view text);
+/// "128K:128:8", "128K:128:full", or lists that are multiplied out, "16K,32K:128:1,2,full". Throws trace::UsageError.
+std::vector<cachesim::CacheConfig> parse_caches(std::string_view text);
 std::string cache_text(const cachesim::CacheConfig& cache);  ///< "131072:128:8"
+
+/// How caches are measured.
+struct Method {
+    bool classes = false;                      ///< Misses by Hill's classes, too.
+    std::optional<replay::Sampling> sampling;  ///< Some of the sets; all when there is none.
+};
 
 class Measurement {
 public:
@@ -25,8 +33,24 @@ public:
     Measurement(trace::TraceReader& trace, const reorder::Reads& reads, std::uint64_t onchip_bytes);
 
     std::uint64_t queries() const { return walks_.queries(); }
+    const replay::WalkStore& walks() const { return walks_; }
+    const replay::HeapLayout& layout() const { return layout_; }
     reorder::Ordered order(const reorder::Ordering& ordering) const;
-    /// A row for each cache, in their order. Any number of threads may call.
+    /// What the ordering's buffers do in memory; `ordered` is its order().
+    reorder::BufferUse buffer_use(const reorder::Ordering& ordering, const reorder::Ordered& ordered) const {
+        return ordering.buffer_use(work_, onchip_bytes_, ordered.permutation);
+    }
+
+    /// Finds what the replays of all orders through these caches share. On all cores; `progress` is told queries done.
+    void prepare(std::span<const cachesim::CacheConfig> caches, const Method& method,
+                 const std::function<void(std::uint64_t)>& progress);
+    /// Another sample, after prepare() with one.
+    void sample(const replay::Sampling& sampling) { method_.sampling = sampling; }
+    const replay::Revisits& revisits() const { return revisits_; }
+    /// In place of prepare() without sampling: what it found before, of these caches or more.
+    void prepare(const replay::Revisits& revisits, const Method& method);
+
+    /// A row for each cache, in their order, all of them prepared. Any number of threads may call.
     std::vector<results::Row> rows(const reorder::OrderingSpec& spec, const reorder::Ordered& ordered,
                                    std::span<const cachesim::CacheConfig> caches,
                                    const std::function<void(std::uint64_t)>& progress) const;
@@ -35,11 +59,17 @@ public:
     std::map<std::uint32_t, std::uint64_t> compulsory_bytes;  ///< By line size.
 
 private:
+    replay::Replayed replayed(std::span<const std::uint32_t> permutation, std::span<const cachesim::CacheConfig> caches,
+                              const std::function<void(std::uint64_t)>& progress) const;
+
     trace::TraceReader& trace_;
     replay::WalkStore walks_;
     replay::HeapLayout layout_;
     reorder::Workload work_;
     std::uint64_t onchip_bytes_;
+    Method method_;
+    replay::Revisits revisits_;
+    replay::LineUse line_use_;
 };
 
 }  // namespace regather::cli

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -10,6 +11,7 @@
 #include "cli/progress.h"
 #include "cli/size.h"
 #include "cli/version.h"
+#include "results/benefit.h"
 #include "results/csv.h"
 #include "results/provenance.h"
 #include "results/table.h"
@@ -37,7 +39,9 @@ void add_replay(CLI::App& app) {
         std::filesystem::path trace, csv;
         std::vector<std::string> orders, caches{"128K:128:8"};
         std::string onchip = "1M";
-        bool force = false;
+        bool classes = false, force = false;
+        std::uint32_t one_of = 1;
+        std::uint64_t seed = 1;
     };
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("replay", "run a trace's walks in other orders through caches");
@@ -48,7 +52,10 @@ void add_replay(CLI::App& app) {
         ->add_option("--order,--reorderer", options->orders,
                      fmt::format("orderings as NAME:parameter=value,...; or the path of a shared library. Known: {}", known))
         ->required();
-    command->add_option("--cache", options->caches, "caches as SIZE:LINE:WAYS; WAYS may be full")->capture_default_str();
+    command->add_option("--cache", options->caches, "caches as SIZE:LINE:WAYS, each a value or a list; WAYS may be full")->capture_default_str();
+    command->add_flag("--classes", options->classes, "compulsory, capacity and conflict misses, too");
+    command->add_option("--sample", options->one_of, "simulate one set of so many (2, 4, ... 1024) and estimate; 1: all")->capture_default_str();
+    command->add_option("--seed", options->seed, "which sets are sampled")->capture_default_str();
     command->add_option("--onchip", options->onchip, "bytes that the chip can buffer")->capture_default_str();
     command->add_option("--csv", options->csv, "write the rows here, and X.json beside X.csv");
     command->add_flag("--force", options->force, "overwrite the CSV");
@@ -65,10 +72,16 @@ void add_replay(CLI::App& app) {
             reads = {reads.direction || one.direction, reads.leaf_kd || one.leaf_kd, reads.leaf_bvh || one.leaf_bvh};
         }
         std::vector<cachesim::CacheConfig> caches;
+        for (const std::string& text : options->caches)
+            for (const cachesim::CacheConfig& cache : parse_caches(text)) caches.push_back(cache);
         std::vector<std::uint32_t> lines;
-        for (const std::string& text : options->caches) {
-            caches.push_back(parse_cache(text));
-            lines.push_back(caches.back().line_bytes);
+        for (const cachesim::CacheConfig& cache : caches)
+            if (std::find(lines.begin(), lines.end(), cache.line_bytes) == lines.end()) lines.push_back(cache.line_bytes);
+        Method method{options->classes, {}};
+        if (options->one_of != 1) {
+            if (options->classes) throw trace::UsageError("--classes: found beside --sample, expected one of them");
+            method.sampling = replay::Sampling{options->one_of, options->seed};
+            replay::SetSample::check(caches, *method.sampling);
         }
         trace::TraceReader trace(options->trace);
         Measurement measurement(trace, reads, parse_size(options->onchip));
@@ -76,6 +89,9 @@ void add_replay(CLI::App& app) {
         std::vector<results::Row> rows;
         {
             Progress progress;
+            measurement.prepare(caches, method, [&](std::uint64_t done) {
+                progress.update("counting what no order changes", "queries", done, measurement.queries());
+            });
             for (const reorder::ParsedOrdering& parsed : orderings) {
                 const reorder::Ordered ordered = measurement.order(*parsed.ordering);
                 const auto made = measurement.rows(parsed.spec, ordered, caches, [&](std::uint64_t done) {
@@ -84,6 +100,7 @@ void add_replay(CLI::App& app) {
                 rows.insert(rows.end(), made.begin(), made.end());
             }
         }
+        results::fill_net_benefit(rows);
         if (options->csv.empty()) {
             fmt::print("{}", results::to_csv(rows));
             return;

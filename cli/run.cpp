@@ -16,7 +16,9 @@
 #include "cli/experiment.h"
 #include "cli/measurement.h"
 #include "cli/progress.h"
+#include "cli/revisits.h"
 #include "cli/version.h"
+#include "results/benefit.h"
 #include "results/chart.h"
 #include "results/csv.h"
 #include "results/provenance.h"
@@ -28,11 +30,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string method_text(const Method& method) {
+    if (method.sampling) return fmt::format("1/{} seed {}", method.sampling->one_of, method.sampling->seed);
+    return method.classes ? "classes" : "exact";
+}
+
 /// The rows of one trial, as a file that bears a digest of all that they depend on: the code, too.
 fs::path part_path(const fs::path& folder, const Trial& trial, const trace::TraceReader& trace,
-                   std::uint64_t onchip_bytes) {
-    std::string key = fmt::format("{} {} {} {} {}", git_revision(), trace.checksum(), trial.ordering.spec.text,
-                                  trial.library_digest, onchip_bytes);
+                   const Experiment& experiment) {
+    std::string key = fmt::format("{} {} {} {} {} {}", git_revision(), trace.checksum(), trial.ordering.spec.text,
+                                  trial.library_digest, experiment.onchip_bytes, method_text(experiment.method));
     for (const cachesim::CacheConfig& cache : trial.caches) key += ' ' + cache_text(cache);
     return folder / "parts" / fmt::format("{:016x}.csv", XXH3_64bits(key.data(), key.size()));
 }
@@ -68,6 +75,28 @@ void find_compulsory(Measurement& measurement, const fs::path& folder, const Exp
         rows.push_back(row);
     }
     results::write_csv(path, rows);
+}
+
+/// What the replays of all trials share, kept likewise when it is exact.
+void prepare(Measurement& measurement, const fs::path& folder, const Experiment& experiment,
+             const trace::TraceReader& trace) {
+    std::vector<cachesim::CacheConfig> caches;
+    std::string key = fmt::format("{} {} {}", git_revision(), trace.checksum(), method_text(experiment.method));
+    for (const Trial& trial : experiment.trials)
+        for (const cachesim::CacheConfig& cache : trial.caches) {
+            caches.push_back(cache);
+            key += ' ' + cache_text(cache);
+        }
+    const fs::path path = folder / "parts" / fmt::format("revisits-{:016x}.json", XXH3_64bits(key.data(), key.size()));
+    if (!experiment.method.sampling && fs::exists(path)) {
+        measurement.prepare(read_revisits(path), experiment.method);
+        return;
+    }
+    Progress progress;
+    measurement.prepare(caches, experiment.method, [&](std::uint64_t done) {
+        progress.update("counting what no order changes", "queries", done, measurement.queries());
+    });
+    if (!experiment.method.sampling) write_revisits(path, measurement.revisits());
 }
 
 /// Replays what is missing: as many trials at once as there are threads; their orders are made before, one by one, so that
@@ -136,14 +165,18 @@ void add_run(CLI::App& app) {
         find_compulsory(measurement, options->folder, experiment, trace);
         std::vector<fs::path> parts;
         for (const Trial& trial : experiment.trials)
-            parts.push_back(part_path(options->folder, trial, trace, experiment.onchip_bytes));
-        replay_missing(measurement, experiment, parts);
+            parts.push_back(part_path(options->folder, trial, trace, experiment));
+        if (!std::all_of(parts.begin(), parts.end(), [](const fs::path& part) { return fs::exists(part); })) {
+            prepare(measurement, options->folder, experiment, trace);
+            replay_missing(measurement, experiment, parts);
+        }
 
         std::vector<results::Row> rows;
         for (const fs::path& part : parts) {
             const std::vector<results::Row> some = results::read_csv(part);
             rows.insert(rows.end(), some.begin(), some.end());
         }
+        results::fill_net_benefit(rows);
         const fs::path csv = options->folder / "rows.csv";
         results::write_csv(csv, rows);
         results::write_provenance(csv, {command_line(), version(), git_revision(), trace.checksum()},

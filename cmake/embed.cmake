@@ -1,5 +1,6 @@
 # embed.cmake -- text files as C++ character arrays.
 # regather_embed(TARGET NAMESPACE FILE...): `const char NAMESPACE::STEM[]` for each file; made again when a file changes.
+# STEM is the name of the file without its extension, and has _ for -.
 # The script mode below (cmake -P) writes one of them, in raw strings of a bounded length.
 if(CMAKE_SCRIPT_MODE_FILE)
     file(READ "${INPUT}" text)
@@ -20,6 +21,7 @@ set(regather_embed_script ${CMAKE_CURRENT_LIST_FILE})
 function(regather_embed target namespace)
     foreach(file ${ARGN})
         get_filename_component(stem ${file} NAME_WE)
+        string(MAKE_C_IDENTIFIER ${stem} stem)
         set(output ${CMAKE_BINARY_DIR}/embedded/${target}_${stem}.cpp)
         add_custom_command(OUTPUT ${output}
             COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_SOURCE_DIR}/${file} -DOUTPUT=${output} -DNAMESPACE=${namespace}

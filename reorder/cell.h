@@ -29,17 +29,19 @@ public:
         if (edge > 0) scale_ = cells_per_axis / edge;
     }
 
-    /// `position` is finite.
+    /// Any cell for a position that is not finite.
     Cell cell_of(trace::Vec3 position) const {
         return {along(position.x, 0), along(position.y, 1), along(position.z, 2)};
     }
 
-private:
+    /// The cell's coordinate on one axis.
     std::uint32_t along(float coordinate, int axis) const {
         const double cells = (double{coordinate} - min_[axis]) * scale_;
-        return static_cast<std::uint32_t>(std::clamp(cells, 0.0, last_));
+        const double clamped = cells > 0 ? (cells < last_ ? cells : last_) : 0;  // NaN: 0
+        return static_cast<std::uint32_t>(static_cast<std::int32_t>(clamped));   // which vectors can
     }
 
+private:
     double min_[3]{}, scale_ = 0, last_;
 };
 

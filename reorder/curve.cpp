@@ -5,16 +5,6 @@
 namespace regather::reorder {
 namespace {
 
-/// Two zero bits between each two bits: five steps of shift, or, and.
-constexpr std::uint64_t spread(std::uint64_t x) {
-    x = (x | x << 32) & 0x001f00000000ffff;
-    x = (x | x << 16) & 0x001f0000ff0000ff;
-    x = (x | x << 8) & 0x100f00f00f00f00f;
-    x = (x | x << 4) & 0x10c30c30c30c30c3;
-    x = (x | x << 2) & 0x1249249249249249;
-    return x;
-}
-
 constexpr std::uint32_t rotate_left(std::uint32_t x, std::uint32_t by) {
     by %= 3;
     return (x << by | x >> (3 - by)) & 7;
@@ -63,16 +53,12 @@ const StepTable steps;
 struct SpreadTable {
     std::uint32_t of[256];
     SpreadTable() {
-        for (std::uint32_t x = 0; x < 256; ++x) of[x] = static_cast<std::uint32_t>(spread(x));
+        for (std::uint32_t x = 0; x < 256; ++x) of[x] = static_cast<std::uint32_t>(spread_bits(x));
     }
 };
 const SpreadTable spread_byte;
 
 }  // namespace
-
-std::uint64_t morton_code(const Cell& cell) {
-    return spread(cell[0]) << 2 | spread(cell[1]) << 1 | spread(cell[2]);
-}
 
 std::uint64_t morton_ops() {
     return 3 * 15 + 4;

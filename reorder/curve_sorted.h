@@ -27,6 +27,8 @@ public:
     explicit CurveSorted(const CurveSortedConfig& config);  ///< trace::UsageError names the field at fault.
     Cost assign_keys(const Workload& work, std::uint64_t onchip_bytes,
                      std::span<std::uint64_t> keys) const override;
+    BufferUse buffer_use(const Workload& work, std::uint64_t onchip_bytes,
+                         std::span<const std::uint32_t> permutation) const override;
 
 private:
     CurveSortedConfig config_;

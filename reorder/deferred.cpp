@@ -43,4 +43,22 @@ Cost deferred_cost(const Workload& work, const Tiling& tiling, const DeferredSor
     return cost;
 }
 
+BufferUse deferred_buffer_use(const Workload& work, const Tiling& tiling, std::uint64_t onchip_bytes,
+                              std::span<const std::uint32_t> permutation) {
+    const std::uint64_t fullest = queries_in_fullest_tile(work, tiling) * query_record_bytes;
+    if (fullest <= onchip_bytes) return {};
+    SortedBatches batches;
+    batches.record_bytes = query_record_bytes;
+    batches.rounds = static_cast<std::uint32_t>(distribution_passes(fullest, onchip_bytes));
+    if (tiling.tiles() > 1) {
+        for (std::size_t r = 1; r < permutation.size(); ++r)
+            if (tiling.tile_of(work.pixel[permutation[r]]) != tiling.tile_of(work.pixel[permutation[r - 1]]))
+                batches.ends.push_back(r);
+    }
+    batches.ends.push_back(permutation.size());
+    BufferUse use;
+    use.batches = std::move(batches);
+    return use;
+}
+
 }  // namespace regather::reorder

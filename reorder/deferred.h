@@ -17,4 +17,8 @@ struct DeferredSort {
 Cost deferred_cost(const Workload& work, const Tiling& tiling, const DeferredSort& sort,
                    std::uint64_t onchip_bytes);
 
+/// The same sort's batches when the fullest tile does not fit; else nothing.
+BufferUse deferred_buffer_use(const Workload& work, const Tiling& tiling, std::uint64_t onchip_bytes,
+                              std::span<const std::uint32_t> permutation);
+
 }  // namespace regather::reorder

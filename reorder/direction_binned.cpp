@@ -40,14 +40,18 @@ DirectionBinned::DirectionBinned(const DirectionBinnedConfig& config) : config_(
                   std::uint64_t{config_.bins} * config_.bins);
 }
 
+/// Counted over all tiles.
+std::uint64_t DirectionBinned::pass_of(const Workload& work, const Tiling& tiling, std::size_t query) const {
+    const std::uint64_t bins = std::uint64_t{config_.bins} * config_.bins, passes = config_.passes;
+    return tiling.tile_of(work.pixel[query]) * passes +
+           direction_bin(work.direction[query], config_.bins) * passes / bins;
+}
+
 Cost DirectionBinned::assign_keys(const Workload& work, std::uint64_t onchip_bytes,
                                   std::span<std::uint64_t> keys) const {
     const Tiling tiling(work, config_.tile);
-    const std::uint64_t bins = std::uint64_t{config_.bins} * config_.bins, passes = config_.passes;
-    tbb::parallel_for(std::size_t{0}, keys.size(), [&](std::size_t i) {
-        const std::uint64_t pass = direction_bin(work.direction[i], config_.bins) * passes / bins;
-        keys[i] = tiling.tile_of(work.pixel[i]) * passes + pass;
-    });
+    const std::uint64_t passes = config_.passes;
+    tbb::parallel_for(std::size_t{0}, keys.size(), [&](std::size_t i) { keys[i] = pass_of(work, tiling, i); });
 
     Cost cost;
     cost.keys = keys.size() * passes;
@@ -61,6 +65,28 @@ Cost DirectionBinned::assign_keys(const Workload& work, std::uint64_t onchip_byt
         if (cost.buffered_bytes > onchip_bytes) cost.reorder_bytes = pixels * pixel_state_bytes * passes;
     }
     return cost;
+}
+
+BufferUse DirectionBinned::buffer_use(const Workload& work, std::uint64_t onchip_bytes,
+                                      std::span<const std::uint32_t> permutation) const {
+    const Tiling tiling(work, config_.tile);
+    if (config_.state == PixelState::recast || config_.passes == 1) return {};
+    if (tiling.pixels_in_tile() * pixel_state_bytes <= onchip_bytes) return {};
+    PixelPasses state;
+    state.state_bytes = pixel_state_bytes;
+    state.image_width = work.image_width;
+    state.image_height = work.image_height;
+    state.tile = config_.tile;
+    state.passes = config_.passes;
+    state.pixel = work.pixel;
+    for (std::size_t r = 0; r < permutation.size(); ++r) {
+        const std::uint64_t pass = pass_of(work, tiling, permutation[r]);
+        if (state.runs.empty() || state.runs.back().pass != pass) state.runs.push_back({pass, r});
+        state.runs.back().end = r + 1;
+    }
+    BufferUse use;
+    use.state = std::move(state);
+    return use;
 }
 
 }  // namespace regather::reorder

@@ -5,6 +5,8 @@
 
 namespace regather::reorder {
 
+class Tiling;
+
 /// What later passes need of a pixel's eye ray is kept from the first pass, or cast again.
 enum class PixelState : std::uint8_t { store, recast };
 
@@ -30,8 +32,12 @@ public:
     Reads reads() const override { return {.direction = true}; }
     Cost assign_keys(const Workload& work, std::uint64_t onchip_bytes,
                      std::span<std::uint64_t> keys) const override;
+    BufferUse buffer_use(const Workload& work, std::uint64_t onchip_bytes,
+                         std::span<const std::uint32_t> permutation) const override;
 
 private:
+    std::uint64_t pass_of(const Workload& work, const Tiling& tiling, std::size_t query) const;
+
     DirectionBinnedConfig config_;
 };
 

@@ -93,6 +93,19 @@ private:
     BucketSet full_;
 };
 
+/// By query.
+std::vector<std::uint32_t> buckets_of(const HashedConfig& config, const Workload& work) {
+    const CellGrid grid(work.bounds, config.cells);
+    std::vector<std::uint32_t> bucket(work.position.size());
+    tbb::parallel_for(std::size_t{0}, bucket.size(), [&](std::size_t i) {
+        const std::uint32_t beside = config.cells;
+        const Cell cell =
+            is_finite(work.position[i]) ? grid.cell_of(work.position[i]) : Cell{beside, beside, beside};
+        bucket[i] = bucket_of(cell[0], cell[1], cell[2], config.buckets);
+    });
+    return bucket;
+}
+
 /// Ranks the queries; returns the number of stalls. `made_at(r)` is the query made r-th.
 template <class MadeAt>
 std::uint64_t run_machine(const HashedConfig& config, std::span<const std::uint32_t> bucket, MadeAt&& made_at,
@@ -150,15 +163,7 @@ Cost Hashed::assign_keys(const Workload& work, std::uint64_t onchip_bytes,
 
 Cost Hashed::assign_keys(const Workload& work, std::uint64_t onchip_bytes,
                          std::span<const std::uint32_t> incoming, std::span<std::uint64_t> keys) const {
-    const CellGrid grid(work.bounds, config_.cells);
-    std::vector<std::uint32_t> bucket(keys.size());
-    tbb::parallel_for(std::size_t{0}, keys.size(), [&](std::size_t i) {
-        const std::uint32_t beside = config_.cells;
-        const Cell cell =
-            is_finite(work.position[i]) ? grid.cell_of(work.position[i]) : Cell{beside, beside, beside};
-        bucket[i] = bucket_of(cell[0], cell[1], cell[2], config_.buckets);
-    });
-
+    const std::vector<std::uint32_t> bucket = buckets_of(config_, work);
     Cost cost;
     const auto capture_order = [](std::uint64_t made) { return static_cast<std::uint32_t>(made); };
     cost.stalls = incoming.empty() ? run_machine(config_, bucket, capture_order, keys)
@@ -172,11 +177,25 @@ Cost Hashed::assign_keys(const Workload& work, std::uint64_t onchip_bytes,
     return cost;
 }
 
+BoundedBuckets Hashed::buckets(const Workload& work, std::uint64_t onchip_bytes,
+                               std::vector<std::uint32_t> incoming) const {
+    return {.record_bytes = buffer_bytes() > onchip_bytes ? query_record_bytes : 0,
+            .buckets = config_.buckets,
+            .capacity = config_.capacity,
+            .bucket = buckets_of(config_, work),
+            .made = std::move(incoming)};
+}
+
+BufferUse Hashed::buffer_use(const Workload& work, std::uint64_t onchip_bytes,
+                             std::span<const std::uint32_t>) const {
+    BufferUse use;
+    if (buffer_bytes() > onchip_bytes) use.buckets = buckets(work, onchip_bytes, {});
+    return use;
+}
+
 Cost DirectionBinnedHashed::assign_keys(const Workload& work, std::uint64_t onchip_bytes,
                                         std::span<std::uint64_t> keys) const {
-    const std::uint64_t buckets = hashing_.buffer_bytes();
-    const Cost making =
-        making_.assign_keys(work, buckets <= onchip_bytes ? onchip_bytes - buckets : onchip_bytes, keys);
+    const Cost making = making_.assign_keys(work, making_onchip(onchip_bytes), keys);
     const std::vector<std::uint32_t> incoming = sorted_permutation(keys);
     Cost sum = hashing_.assign_keys(work, onchip_bytes, incoming, keys);
     sum.keys += making.keys;
@@ -185,6 +204,17 @@ Cost DirectionBinnedHashed::assign_keys(const Workload& work, std::uint64_t onch
     sum.reorder_bytes += making.reorder_bytes;
     sum.recast_rays += making.recast_rays;
     return sum;
+}
+
+BufferUse DirectionBinnedHashed::buffer_use(const Workload& work, std::uint64_t onchip_bytes,
+                                            std::span<const std::uint32_t>) const {
+    std::vector<std::uint64_t> keys(work.position.size());
+    making_.assign_keys(work, making_onchip(onchip_bytes), keys);
+    std::vector<std::uint32_t> incoming = sorted_permutation(keys);
+    BufferUse use = making_.buffer_use(work, making_onchip(onchip_bytes), incoming);
+    if (use.state || hashing_.buffer_bytes() > onchip_bytes)
+        use.buckets = hashing_.buckets(work, onchip_bytes, std::move(incoming));
+    return use;
 }
 
 }  // namespace regather::reorder

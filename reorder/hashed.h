@@ -25,10 +25,14 @@ public:
     explicit Hashed(const HashedConfig& config);  ///< trace::UsageError names the field at fault.
     Cost assign_keys(const Workload& work, std::uint64_t onchip_bytes,
                      std::span<std::uint64_t> keys) const override;
+    BufferUse buffer_use(const Workload& work, std::uint64_t onchip_bytes,
+                         std::span<const std::uint32_t> permutation) const override;
 
     /// The same machine fed in another order: incoming[r] is made r-th.
     Cost assign_keys(const Workload& work, std::uint64_t onchip_bytes,
                      std::span<const std::uint32_t> incoming, std::span<std::uint64_t> keys) const;
+    /// Likewise; record_bytes is 0 when the buckets fit.
+    BoundedBuckets buckets(const Workload& work, std::uint64_t onchip_bytes, std::vector<std::uint32_t> incoming) const;
     std::uint64_t buffer_bytes() const;
 
 private:
@@ -43,8 +47,16 @@ public:
     Reads reads() const override { return making_.reads(); }
     Cost assign_keys(const Workload& work, std::uint64_t onchip_bytes,
                      std::span<std::uint64_t> keys) const override;
+    BufferUse buffer_use(const Workload& work, std::uint64_t onchip_bytes,
+                         std::span<const std::uint32_t> permutation) const override;
 
 private:
+    /// The chip's room for the pixel state: the buckets come first.
+    std::uint64_t making_onchip(std::uint64_t onchip_bytes) const {
+        const std::uint64_t buckets = hashing_.buffer_bytes();
+        return buckets <= onchip_bytes ? onchip_bytes - buckets : onchip_bytes;
+    }
+
     DirectionBinned making_;
     Hashed hashing_;
 };

@@ -21,6 +21,8 @@ public:
     Reads reads() const override;
     Cost assign_keys(const Workload& work, std::uint64_t onchip_bytes,
                      std::span<std::uint64_t> keys) const override;
+    BufferUse buffer_use(const Workload& work, std::uint64_t onchip_bytes,
+                         std::span<const std::uint32_t> permutation) const override;
 
 private:
     LeafSortedConfig config_;

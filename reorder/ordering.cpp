@@ -56,6 +56,10 @@ void check(const Workload& work, Reads reads) {
 
 }  // namespace
 
+BufferUse Ordering::buffer_use(const Workload&, std::uint64_t, std::span<const std::uint32_t>) const {
+    return {.known = false, .batches = {}, .buckets = {}, .state = {}};
+}
+
 Ordered order(const Ordering& ordering, const Workload& work, std::uint64_t onchip_bytes) {
     check(work, ordering.reads());
     const auto start = std::chrono::steady_clock::now();

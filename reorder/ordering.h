@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "reorder/buffer_use.h"
 #include "trace/bounds.h"
 #include "trace/vec.h"
 
@@ -60,6 +61,10 @@ public:
     /// keys[i] belongs to query i; smaller keys run first. A rank is a key, so any order can be said.
     /// `onchip_bytes`: what the chip can buffer; a larger buffer makes reorder_bytes.
     virtual Cost assign_keys(const Workload& work, std::uint64_t onchip_bytes, std::span<std::uint64_t> keys) const = 0;
+    /// What makes the reorder_bytes; empty when nothing does. `permutation` is that of order() with the same workload and
+    /// onchip_bytes. By default not known.
+    virtual BufferUse buffer_use(const Workload& work, std::uint64_t onchip_bytes,
+                                 std::span<const std::uint32_t> permutation) const;
 };
 
 struct Ordered {

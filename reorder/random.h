@@ -11,6 +11,9 @@ public:
     explicit Random(std::uint64_t seed) : seed_(seed) {}
     Cost assign_keys(const Workload& work, std::uint64_t onchip_bytes,
                      std::span<std::uint64_t> keys) const override;
+    BufferUse buffer_use(const Workload&, std::uint64_t, std::span<const std::uint32_t>) const override {
+        return {};
+    }
 
 private:
     std::uint64_t seed_;

@@ -18,6 +18,9 @@ public:
     explicit Tiled(const TiledConfig& config);  ///< trace::UsageError names the field at fault.
     Cost assign_keys(const Workload& work, std::uint64_t onchip_bytes,
                      std::span<std::uint64_t> keys) const override;
+    BufferUse buffer_use(const Workload&, std::uint64_t, std::span<const std::uint32_t>) const override {
+        return {};
+    }
 
 private:
     TiledConfig config_;

@@ -7,139 +7,173 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <atomic>
+#include <cassert>
 #include <chrono>
-#include <limits>
 #include <string_view>
 
 #include "cachesim/distinct.h"
 #include "cachesim/lines.h"
-#include "spatial/walk.h"
+#include "replay/walk_lines.h"
+#include "replay/walk_run.h"
 #include "trace/error.h"
 
 namespace regather::replay {
 namespace {
 
-constexpr std::uint64_t prefetch_table = 32, prefetch_walk = 12, progress_queries = 1 << 16;
+using cachesim::CacheConfig;
+using cachesim::FamilyConfig;
+using cachesim::FamilyCounts;
 
-[[noreturn]] void refuse(std::uint64_t query, spatial::WalkFault fault) {
+constexpr std::uint32_t max_family_ways = 32;
+constexpr std::uint64_t max_family_sets = std::uint64_t{1} << 24;
+
+/// The families that serve a configuration's caches, by line size.
+std::map<std::uint32_t, FamilyConfig> families(const ReplayConfig& config) {
+    std::map<std::uint32_t, FamilyConfig> by_line;
+    for (const CacheConfig& cache : config.caches) {
+        cachesim::check(cache);
+        if (!family_serves(cache)) continue;
+        FamilyConfig& family =
+            by_line.try_emplace(cache.line_bytes, FamilyConfig{.distances = config.classes, .conflicts = config.classes})
+                .first->second;
+        if (cache.ways == cachesim::fully_associative) {
+            family.distances = true;
+            continue;
+        }
+        const auto level = std::lower_bound(family.levels.begin(), family.levels.end(), cache.sets(),
+                                            [](const auto& l, std::uint64_t sets) { return l.sets < sets; });
+        if (level == family.levels.end() || level->sets != cache.sets())
+            family.levels.insert(level, {cache.sets(), cache.ways});
+        else
+            level->ways = std::max(level->ways, cache.ways);
+    }
+    return by_line;
+}
+
+/// The caches of one line size on their way through a replay.
+class LineSize {
+public:
+    LineSize(const HeapLayout& layout, std::uint32_t line_bytes, std::uint32_t photons) : lines_(layout, line_bytes, photons) {}
+
+    std::uint32_t line_bytes() const { return lines_.line_bytes(); }
+    void add_family(const FamilyConfig& config) { family_.emplace(config); }
+    void add_cache(const CacheConfig& config) { alone_.emplace_back(config); }
+
+    void visit(std::span<const std::uint32_t> slots) {
+        const std::span<const cachesim::Line> touches = lines_.touches(slots);
+        accesses_ += touches.size();
+        for (cachesim::LruCache& cache : alone_) cache.access(touches, trace::Region::photons);
+        if (!family_) return;
+        const WalkLines::First first = lines_.first(touches);
+        family_->access_first(first.lines, first.last_rank);
+    }
+
+    CacheTraffic traffic(const CacheConfig& config, bool classes, const Revisits& revisits) {
+        CacheTraffic found{.config = config, .accesses = accesses_, .misses = 0, .traffic_bytes = 0, .classes = {}, .error = {}};
+        if (family_serves(config)) {
+            const FamilyCounts &first = family_->counts(), &again = revisits.at(config.line_bytes);
+            const std::uint64_t sets = config.sets();
+            const bool full = config.ways == cachesim::fully_associative;
+            const std::uint64_t lines = config.size_bytes / config.line_bytes;
+            found.misses = full ? first.full_misses(lines) + again.full_misses(lines)
+                                : first.misses(sets, config.ways) + again.misses(sets, config.ways);
+            if (classes) {
+                const std::uint64_t conflict =
+                    full ? 0 : first.conflicts(sets, config.ways) + again.conflicts(sets, config.ways);
+                found.classes = {first.compulsory, found.misses - first.compulsory - conflict, conflict};
+            }
+        } else {
+            const auto cache = std::find_if(alone_.begin(), alone_.end(), [&](const cachesim::LruCache& candidate) {
+                return candidate.config().size_bytes == config.size_bytes && candidate.config().ways == config.ways;
+            });
+            found.misses = cache->total().misses;
+        }
+        found.traffic_bytes = found.misses * config.line_bytes;
+        return found;
+    }
+
+private:
+    WalkLines lines_;
+    std::uint64_t accesses_ = 0;
+    std::optional<cachesim::LruFamily> family_;
+    std::vector<cachesim::LruCache> alone_;
+};
+
+}  // namespace
+
+void refuse_walk(std::uint64_t query, spatial::WalkFault fault) {
     constexpr std::array<std::string_view, 4> found{"", "a walk that ends early", "bytes after the walk's end",
                                                     "a walk that enters a node that does not exist"};
     throw trace::DataError(fmt::format("walk.npy: query {}: found {}, expected the walk of a search in this tree", query,
                                        found[static_cast<std::size_t>(fault)]));
 }
 
-/// The caches of one line size, and the lines on their way to them.
-class LineStream {
-public:
-    LineStream(const HeapLayout& layout, std::uint32_t line_bytes)
-        : layout_(layout),
-          shift_(std::countr_zero(line_bytes)),
-          recent_(most_sets, std::numeric_limits<std::uint64_t>::max()),
-          lines_(capacity) {}
+bool family_serves(const CacheConfig& config) {
+    return config.ways == cachesim::fully_associative || (config.ways <= max_family_ways && config.sets() <= max_family_sets);
+}
 
-    void add_cache(cachesim::LruCache& cache) {
-        caches_.push_back(&cache);
-        recent_.resize(std::min<std::size_t>(recent_.size(), cache.config().sets()));
-    }
-    std::uint32_t line_bytes() const { return std::uint32_t{1} << shift_; }
-
-    /// A line that is the last one used of its set hits in an LRU cache and changes nothing there; nor in one of more sets,
-    /// which split that set. Such accesses are counted but not passed on.
-    void append(std::span<const std::uint32_t> slots) {
-        for (; slots.size() > part; slots = slots.subspan(part)) append_part(slots.first(part));
-        append_part(slots);
-    }
-    std::uint64_t accesses() const { return accesses_; }
-    void drain() {
-        const std::span<const cachesim::Line> ready(lines_.data(), fill_);
-        for (cachesim::LruCache* cache : caches_) cache->access(ready, trace::Region::photons);
-        fill_ = 0;
-    }
-
-private:
-    void append_part(std::span<const std::uint32_t> slots) {
-        if (fill_ + slots.size() * most_lines() > lines_.size()) drain();
-        cachesim::Line* to = lines_.data() + fill_;
-        std::uint64_t* const recent = recent_.data();
-        const std::uint64_t set_mask = recent_.size() - 1;
-        std::uint64_t accesses = 0;
-        const auto pass = [&](std::uint64_t line, bool wanted) {
-            std::uint64_t& last_used = recent[line & set_mask];
-            *to = cachesim::Line{line};
-            to += static_cast<int>(wanted) & static_cast<int>(last_used != line);  // else overwritten
-            last_used = line;
-        };
-        for (const std::uint32_t slot : slots) {
-            const std::uint64_t address = layout_.address(slot);
-            const std::uint64_t first = address >> shift_, last = (address + layout_.used_bytes - 1) >> shift_;
-            accesses += last - first + 1;
-            pass(first, true);
-            if (last - first <= 1) {
-                pass(last, last != first);
-            } else {
-                for (std::uint64_t line = first + 1; line <= last; ++line) pass(line, true);
-            }
+Revisits count_revisits(const WalkStore& walks, const HeapLayout& layout, const ReplayConfig& config,
+                        const QueriesDone& progress) {
+    const std::map<std::uint32_t, FamilyConfig> by_line = families(config);
+    struct Part {
+        spatial::WalkDecoder decoder;
+        std::vector<WalkLines> lines;
+        std::vector<cachesim::LruFamily> families;
+    };
+    tbb::enumerable_thread_specific<Part> parts([&] {
+        Part part{spatial::WalkDecoder(walks.photons()), {}, {}};
+        for (const auto& [line_bytes, family] : by_line) {
+            part.lines.emplace_back(layout, line_bytes, walks.photons());
+            part.families.emplace_back(family);
         }
-        accesses_ += accesses;
-        fill_ = static_cast<std::size_t>(to - lines_.data());
+        return part;
+    });
+    if (by_line.empty()) return {};
+    std::atomic<std::uint64_t> done = 0;
+    tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, walks.queries(), 4096), [&](const auto& range) {
+        Part& part = parts.local();
+        for (std::uint64_t q = range.begin(); q != range.end(); ++q) {
+            const spatial::WalkDecoder::Visits visits = part.decoder.decode(walks.walk(q));
+            if (visits.fault != spatial::WalkFault::none) refuse_walk(q, visits.fault);
+            for (std::size_t f = 0; f < part.families.size(); ++f)
+                part.families[f].revisit(part.lines[f].touches(visits.slots));
+        }
+        done += range.size();
+        if (progress) progress(done);
+    });
+    Revisits sum;
+    std::size_t f = 0;
+    for (const auto& [line_bytes, family] : by_line) {
+        FamilyCounts& counts = sum[line_bytes];
+        counts = cachesim::LruFamily(family).counts();
+        for (Part& part : parts) counts += part.families[f].counts();
+        ++f;
     }
-    static constexpr std::size_t part = 256, capacity = 16384, most_sets = 4096;
-    std::size_t most_lines() const { return layout_.used_bytes / line_bytes() + 2; }
-    const HeapLayout layout_;
-    int shift_;
-    std::size_t fill_ = 0;
-    std::uint64_t accesses_ = 0;
-    std::vector<std::uint64_t> recent_;  // by set of the cache with the fewest: the line last used
-    std::vector<cachesim::Line> lines_;
-    std::vector<cachesim::LruCache*> caches_;
-};
-
-}  // namespace
+    return sum;
+}
 
 Replayed replay(const WalkStore& walks, const HeapLayout& layout, std::span<const std::uint32_t> permutation,
-                std::span<const cachesim::CacheConfig> caches, const std::function<void(std::uint64_t)>& progress) {
+                const ReplayConfig& config, const Revisits& revisits, const QueriesDone& progress) {
+    assert(permutation.size() == walks.queries());
     const auto start = std::chrono::steady_clock::now();
-    std::vector<cachesim::LruCache> simulated;
-    simulated.reserve(caches.size());
-    std::vector<LineStream> streams;
-    streams.reserve(caches.size());
-    for (const cachesim::CacheConfig& config : caches) {
-        simulated.emplace_back(config);
-        LineStream* stream = nullptr;
-        for (LineStream& candidate : streams)
-            if (candidate.line_bytes() == config.line_bytes) stream = &candidate;
-        if (!stream) stream = &streams.emplace_back(layout, config.line_bytes);
-        stream->add_cache(simulated.back());
-    }
+    std::vector<LineSize> sizes;
+    const auto size_of = [&](std::uint32_t line_bytes) -> LineSize& {
+        for (LineSize& size : sizes)
+            if (size.line_bytes() == line_bytes) return size;
+        return sizes.emplace_back(layout, line_bytes, walks.photons());
+    };
+    for (const auto& [line_bytes, family] : families(config)) size_of(line_bytes).add_family(family);
+    for (const CacheConfig& cache : config.caches)
+        if (!family_serves(cache)) size_of(cache.line_bytes).add_cache(cache);
 
-    spatial::WalkDecoder decoder(walks.photons());
     Replayed result;
-    std::uint64_t visited = 0;
-    for (std::uint64_t r = 0; r < permutation.size(); ++r) {
-        if (r + prefetch_table < permutation.size()) walks.prefetch(permutation[r + prefetch_table]);
-        if (r + prefetch_walk < permutation.size()) {
-            const std::span<const std::uint8_t> ahead = walks.walk(permutation[r + prefetch_walk]);
-            __builtin_prefetch(ahead.data());
-            __builtin_prefetch(ahead.data() + ahead.size());
-        }
-        const auto [fault, slots] = decoder.decode(walks.walk(permutation[r]));
-        if (fault != spatial::WalkFault::none) refuse(permutation[r], fault);
-        visited += slots.size();
-        for (LineStream& stream : streams) stream.append(slots);
-        if (progress && (r + 1) % progress_queries == 0) progress(r + 1);
-    }
-    for (LineStream& stream : streams) stream.drain();
-    if (progress) progress(permutation.size());
-
-    result.visited_nodes = visited;
-    result.raw_bytes = visited * layout.used_bytes;
-    for (const cachesim::LruCache& cache : simulated) {
-        const auto stream = std::find_if(streams.begin(), streams.end(), [&](const LineStream& candidate) {
-            return candidate.line_bytes() == cache.config().line_bytes;
-        });
-        result.caches.push_back({cache.config(), stream->accesses(), cache.total().misses, cache.traffic_bytes()});
-    }
+    result.visited_nodes = run_walks(walks, permutation, progress, [&](std::span<const std::uint32_t> slots) {
+        for (LineSize& size : sizes) size.visit(slots);
+    });
+    result.raw_bytes = result.visited_nodes * layout.used_bytes;
+    for (const CacheConfig& cache : config.caches)
+        result.caches.push_back(size_of(cache.line_bytes).traffic(cache, config.classes, revisits));
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
 }
@@ -156,7 +190,7 @@ std::vector<bool> touched_nodes(const WalkStore& walks) {
         Part& part = parts.local();
         for (std::uint64_t q = range.begin(); q != range.end(); ++q) {
             const spatial::WalkDecoder::Visits visits = part.decoder.decode(walks.walk(q));
-            if (visits.fault != spatial::WalkFault::none) refuse(q, visits.fault);
+            if (visits.fault != spatial::WalkFault::none) refuse_walk(q, visits.fault);
             for (const std::uint32_t slot : visits.slots) part.touched[slot] = true;
         }
     });

@@ -1,22 +1,47 @@
 // replay/replay.h -- runs recorded walks in an order: walks -> nodes -> bytes -> lines -> caches. Nothing is searched.
+//
+// All LRU caches of one line size come from one pass (cachesim/lru_family.h), and of a walk's touches only the first of each
+// line are simulated for an order: how deep the others lie does not depend on what ran before the walk, so they are counted
+// once for all orders (count_revisits()).
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "cachesim/cache.h"
+#include "cachesim/lru_family.h"
 #include "replay/layout.h"
 #include "replay/walk_store.h"
 
 namespace regather::replay {
 
+using QueriesDone = std::function<void(std::uint64_t)>;
+
+/// Misses by class: Hill, "Aspects of Cache Memory and Instruction Buffer Performance", 1987. First touches of a line; others
+/// that a fully associative LRU cache of the same size misses, too; the rest.
+struct MissClasses {
+    std::uint64_t compulsory = 0, capacity = 0, conflict = 0;
+    friend bool operator==(const MissClasses&, const MissClasses&) = default;
+};
+
+/// How far a count from a sample of the sets may lie from the truth.
+struct SampleError {
+    std::uint64_t sampled_sets = 0;
+    double standard_error = 0;
+    std::uint64_t low = 0, high = 0;  ///< 95 % confidence interval.
+};
+
 /// What went through one cache.
 struct CacheTraffic {
     cachesim::CacheConfig config;
-    std::uint64_t accesses = 0;       ///< Line accesses; a node on two lines makes two.
-    std::uint64_t misses = 0;
+    std::uint64_t accesses = 0;  ///< Line accesses; a node on two lines makes two.
+    std::uint64_t misses = 0;    ///< An estimate when there is a SampleError.
     std::uint64_t traffic_bytes = 0;  ///< misses x line_bytes: a replay only reads.
+    std::optional<MissClasses> classes;
+    std::optional<SampleError> error;
 };
 
 struct Replayed {
@@ -26,12 +51,28 @@ struct Replayed {
     double seconds = 0;
 };
 
-/// Runs the queries in the order of `permutation` (indices below walks.queries(); need not be all) through each
-/// cache, as if it were alone. `progress` is told the queries done now and then. One thread; several replays of one
-/// store can run at once. Throws trace::DataError with the query's number when a walk does not fit its tree.
+/// What a replay is to find.
+struct ReplayConfig {
+    std::vector<cachesim::CacheConfig> caches;
+    bool classes = false;  ///< MissClasses for every cache that a family serves.
+};
+
+/// The touches of lines that their walk touched before, counted for every cache of a family, by line size.
+using Revisits = std::map<std::uint32_t, cachesim::FamilyCounts>;
+
+/// Up to 32 ways, or all.
+bool family_serves(const cachesim::CacheConfig& config);
+
+/// For any order of the trace's queries and any of these caches. On all cores. Throws trace::DataError with the query's
+/// number when a walk does not fit its tree.
+Revisits count_revisits(const WalkStore& walks, const HeapLayout& layout, const ReplayConfig& config,
+                        const QueriesDone& progress = {});
+
+/// Runs all queries in the order of `permutation` through each cache, as if it were alone. `revisits` are of the same walks,
+/// layout, and of these caches or more. `progress` is told the queries done now and then. One thread; several replays of one
+/// store can run at once. Throws as count_revisits().
 Replayed replay(const WalkStore& walks, const HeapLayout& layout, std::span<const std::uint32_t> permutation,
-                std::span<const cachesim::CacheConfig> caches,
-                const std::function<void(std::uint64_t)>& progress = {});
+                const ReplayConfig& config, const Revisits& revisits, const QueriesDone& progress = {});
 
 /// The nodes that any query visits, as a bitmap over slots (bit s: slot s, counted from 1). In parallel.
 std::vector<bool> touched_nodes(const WalkStore& walks);

@@ -1,5 +1,5 @@
 // results/chart.h -- the charts: rows in, SVG and PNG out, drawn by gnuplot. How to read each:
-// docs/charts.md. After the paper's Figure 4 (section 6.3): log axes, an ordering a curve, one cache.
+// docs/charts.md. Each kind is composed from one kind of rows by the file that bears its noun.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "results/csv.h"
 #include "results/geometry.h"
-#include "results/row.h"
 
 namespace regather::results {
 
@@ -26,9 +26,24 @@ struct Chart {
     std::string skipped;  ///< Why there is nothing to draw; then all else is empty.
 };
 
+inline Chart skip(std::string reason) {
+    Chart chart;
+    chart.skipped = std::move(reason);
+    return chart;
+}
+
+/// All that there is to draw from.
+struct Rows {
+    std::span<const Row> measurements;
+    std::span<const DetailRow> details;
+    std::span<const TimelineRow> timeline;
+    std::span<const SamplingRow> sampling;
+};
+
 struct ChartKind {
     std::string_view name, title, needs;
-    Chart (*compose)(const ChartKind&, std::span<const Row>, const ChartOptions&);
+    RowKind rows;  ///< What it is drawn from.
+    Chart (*compose)(const ChartKind&, const Rows&, const ChartOptions&);
 };
 std::span<const ChartKind> chart_kinds();
 
@@ -49,7 +64,12 @@ struct Drawn {
     std::string skipped;
 };
 
-/// Draws into `folder`, made when missing; existing files are replaced. No names: every kind.
+/// By names; without, every kind for whose rows there are any. Throws as chart_kind().
+std::vector<const ChartKind*> wanted_kinds(const Rows& rows, std::span<const std::string> names);
+
+/// Draws the wanted kinds into `folder`, made when missing; existing files are replaced.
+std::vector<Drawn> write_charts(const std::filesystem::path& folder, const Rows& rows,
+                                std::span<const std::string> kinds, const ChartOptions& options);
 std::vector<Drawn> write_charts(const std::filesystem::path& folder, std::span<const Row> rows,
                                 std::span<const std::string> kinds, const ChartOptions& options);
 

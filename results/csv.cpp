@@ -13,39 +13,6 @@
 namespace regather::results {
 namespace {
 
-constexpr bool needed = true;
-constexpr Column table[] = {
-    {"scene", &Row::scene},
-    {"frame", &Row::frame},
-    {"ordering", &Row::ordering, needed},
-    {"tile", &Row::tile},
-    {"bins", &Row::bins},
-    {"structure", &Row::structure},
-    {"layout", &Row::layout},
-    {"policy", &Row::policy},
-    {"cache_bytes", &Row::cache_bytes, needed},
-    {"line_bytes", &Row::line_bytes, needed},
-    {"ways", Ways{&Row::ways}, needed},
-    {"queries", &Row::queries},
-    {"accesses", &Row::accesses},
-    {"raw_bytes", &Row::raw_bytes},
-    {"oracle_bytes", &Row::oracle_bytes},
-    {"compulsory_bytes", &Row::compulsory_bytes},
-    {"misses", &Row::misses},
-    {"traffic_bytes", &Row::traffic_bytes, needed},
-    {"reorder_bytes", &Row::reorder_bytes},
-    {"key_ops", &Row::key_ops},
-    {"moved_records", &Row::moved_records},
-    {"buffered_bytes", &Row::buffered_bytes},
-    {"recast_rays", &Row::recast_rays},
-    {"order_seconds", &Row::order_seconds},
-    {"replay_seconds", &Row::replay_seconds},
-    {"parameters", &Row::parameters},
-    {"keys", &Row::keys},
-    {"sort_passes", &Row::sort_passes},
-    {"stalls", &Row::stalls},
-};
-
 std::string text_cell(std::string_view text) {
     if (text.find_first_of(",\"\r\n") == text.npos) return std::string(text);
     std::string out = "\"";
@@ -53,17 +20,21 @@ std::string text_cell(std::string_view text) {
     return out + '"';
 }
 
+template <class R>
 struct CellWriter {
-    const Row& row;
-    std::string operator()(std::string Row::*field) const { return text_cell(row.*field); }
-    std::string operator()(Count Row::*field) const {
-        return row.*field ? fmt::to_string(*(row.*field)) : "";
-    }
-    std::string operator()(Seconds Row::*field) const {
-        return row.*field ? fmt::format("{:.6f}", *(row.*field)) : "";
-    }
-    std::string operator()(Ways ways) const {
+    const R& row;
+    std::string operator()(std::string R::*field) const { return text_cell(row.*field); }
+    std::string operator()(Count R::*field) const { return row.*field ? fmt::to_string(*(row.*field)) : ""; }
+    std::string operator()(Signed R::*field) const { return row.*field ? fmt::to_string(*(row.*field)) : ""; }
+    std::string operator()(Flag R::*field) const { return !(row.*field) ? "" : *(row.*field) ? "1" : "0"; }
+    std::string operator()(Ways<R> ways) const {
         return row.*ways.field == std::uint64_t{0} ? "full" : (*this)(ways.field);
+    }
+    std::string operator()(Seconds<R> seconds) const {
+        return row.*seconds.field ? fmt::format("{:.6f}", *(row.*seconds.field)) : "";
+    }
+    std::string operator()(Real<R> real) const {
+        return row.*real.field ? fmt::format("{}", *(row.*real.field)) : "";
     }
 };
 
@@ -150,33 +121,35 @@ private:
     std::size_t at_ = 0, reading_ = 1, line_ = 1;
 };
 
+/// Takes a number that fills the whole text.
+template <class T>
+std::errc parse(const std::string& text, T& value) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && end != text.data() + text.size() ? std::errc::invalid_argument : error;
+}
+
+template <class R>
 struct CellReader {
-    Row& row;
+    R& row;
     const std::string& text;
     /// Null, or what was expected.
-    const char* operator()(std::string Row::*field) const {
+    const char* operator()(std::string R::*field) const {
         row.*field = text;
         return nullptr;
     }
-    const char* operator()(Count Row::*field) const {
-        std::uint64_t value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error == std::errc::result_out_of_range) return "a whole number below 2^64";
-        if (error != std::errc{} || end != text.data() + text.size())
-            return "a whole number or an empty cell";
-        row.*field = value;
+    const char* operator()(Count R::*field) const {
+        return whole(row.*field, "a whole number below 2^64", "a whole number or an empty cell");
+    }
+    const char* operator()(Signed R::*field) const {
+        return whole(row.*field, "a whole number from -2^63 to below 2^63",
+                     "a whole number, with a minus when below 0, or an empty cell");
+    }
+    const char* operator()(Flag R::*field) const {
+        if (text != "0" && text != "1") return "1, 0 or an empty cell";
+        row.*field = text == "1";
         return nullptr;
     }
-    const char* operator()(Seconds Row::*field) const {
-        double value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value) ||
-            std::signbit(value))
-            return "seconds as a decimal number from 0 up, or an empty cell";
-        row.*field = value;
-        return nullptr;
-    }
-    const char* operator()(Ways ways) const {
+    const char* operator()(Ways<R> ways) const {
         if (text == "full") {
             row.*ways.field = 0;
             return nullptr;
@@ -185,13 +158,38 @@ struct CellReader {
                    ? "a whole number from 1 up, \"full\" or an empty cell"
                    : nullptr;
     }
+    const char* operator()(Seconds<R> seconds) const {
+        return real(row.*seconds.field, "seconds as a decimal number from 0 up, or an empty cell");
+    }
+    const char* operator()(Real<R> number) const {
+        return real(row.*number.field, "a decimal number from 0 up, or an empty cell");
+    }
+
+private:
+    template <class T>
+    const char* whole(std::optional<T>& field, const char* in_range, const char* expected) const {
+        T value = 0;
+        const std::errc error = parse(text, value);
+        if (error == std::errc::result_out_of_range) return in_range;
+        if (error != std::errc{}) return expected;
+        field = value;
+        return nullptr;
+    }
+    const char* real(std::optional<double>& field, const char* expected) const {
+        double value = 0;
+        if (parse(text, value) != std::errc{} || !std::isfinite(value) || std::signbit(value))
+            return expected;
+        field = value;
+        return nullptr;
+    }
 };
 
 /// Where each known column stands in the file: an index into the cells, or nothing.
+template <class R>
 std::vector<std::optional<std::size_t>> places(const std::vector<std::string>& header,
                                                const Records& records) {
     std::vector<std::optional<std::size_t>> out;
-    for (const Column& column : table) {
+    for (const Column<R>& column : columns<R>()) {
         const auto first = std::find(header.begin(), header.end(), column.name);
         const auto cell = static_cast<std::size_t>(first - header.begin());
         if (first == header.end()) {
@@ -210,19 +208,29 @@ std::vector<std::optional<std::size_t>> places(const std::vector<std::string>& h
     return out;
 }
 
-}  // namespace
-
-std::span<const Column> columns() {
-    return table;
+std::vector<std::string> header_of(Records& records, std::string_view file) {
+    std::vector<std::string> header;
+    if (!records.next(header)) throw trace::DataError(fmt::format("{}: empty, expected a header line", file));
+    return header;
 }
 
-std::string to_csv(std::span<const Row> rows) {
+template <class R>
+bool has_needed(const std::vector<std::string>& header) {
+    return std::ranges::all_of(columns<R>(), [&](const Column<R>& column) {
+        return !column.needed || std::find(header.begin(), header.end(), column.name) != header.end();
+    });
+}
+
+}  // namespace
+
+template <class R>
+std::string to_csv(std::type_identity_t<std::span<const R>> rows) {
     std::string out;
-    for (const Column& column : table) fmt::format_to(std::back_inserter(out), "{},", column.name);
+    for (const Column<R>& column : columns<R>()) fmt::format_to(std::back_inserter(out), "{},", column.name);
     out.back() = '\n';
-    for (const Row& row : rows) {
-        for (const Column& column : table) {
-            out += std::visit(CellWriter{row}, column.field);
+    for (const R& row : rows) {
+        for (const Column<R>& column : columns<R>()) {
+            out += std::visit(CellWriter<R>{row}, column.field);
             out += ',';
         }
         out.back() = '\n';
@@ -230,41 +238,71 @@ std::string to_csv(std::span<const Row> rows) {
     return out;
 }
 
-std::vector<Row> from_csv(std::string_view text, std::string_view file) {
+template <class R>
+std::vector<R> from_csv(std::string_view text, std::string_view file) {
     Records records(text, file);
-    std::vector<std::string> header, cells;
-    if (!records.next(header)) throw trace::DataError(fmt::format("{}: empty, expected a header line", file));
-    const auto place = places(header, records);
+    const std::vector<std::string> header = header_of(records, file);
+    const auto place = places<R>(header, records);
 
-    std::vector<Row> rows;
+    std::vector<std::string> cells;
+    std::vector<R> rows;
     while (records.next(cells)) {
         if (cells.size() != header.size())
             records.refuse(records.line(), std::min(cells.size(), header.size()), "",
                            fmt::format("{} cells", cells.size()),
                            fmt::format("{} as in the header", header.size()));
-        Row& row = rows.emplace_back();
-        for (std::size_t c = 0; c < std::size(table); ++c) {
+        R& row = rows.emplace_back();
+        for (std::size_t c = 0; c < place.size(); ++c) {
             if (!place[c]) continue;
+            const Column<R>& column = columns<R>()[c];
             const std::string& cell = cells[*place[c]];
             const char* expected = nullptr;
             if (!cell.empty())
-                expected = std::visit(CellReader{row, cell}, table[c].field);
-            else if (table[c].name == "ordering")
+                expected = std::visit(CellReader<R>{row, cell}, column.field);
+            else if (column.name == "ordering")
                 expected = "the name of an ordering";
             if (expected != nullptr)
-                records.refuse(records.line(), *place[c], table[c].name, fmt::format("\"{}\"", shown(cell)),
+                records.refuse(records.line(), *place[c], column.name, fmt::format("\"{}\"", shown(cell)),
                                expected);
         }
     }
     return rows;
 }
 
-void write_csv(const std::filesystem::path& path, std::span<const Row> rows) {
-    trace::write_file(path, to_csv(rows));
+template <class R>
+void write_csv(const std::filesystem::path& path, std::type_identity_t<std::span<const R>> rows) {
+    trace::write_file(path, to_csv<R>(rows));
 }
 
-std::vector<Row> read_csv(const std::filesystem::path& path) {
-    return from_csv(trace::read_file(path), path.string());
+template <class R>
+std::vector<R> read_csv(const std::filesystem::path& path) {
+    return from_csv<R>(trace::read_file(path), path.string());
 }
+
+RowKind row_kind(std::string_view text, std::string_view file) {
+    Records records(text, file);
+    const std::vector<std::string> header = header_of(records, file);
+    if (has_needed<SamplingRow>(header)) return RowKind::sampling;
+    if (has_needed<TimelineRow>(header)) return RowKind::timeline;
+    if (has_needed<DetailRow>(header)) return RowKind::detail;
+    return RowKind::measurement;
+}
+
+template std::string to_csv<Row>(std::span<const Row>);
+template std::string to_csv<DetailRow>(std::span<const DetailRow>);
+template std::string to_csv<TimelineRow>(std::span<const TimelineRow>);
+template std::string to_csv<SamplingRow>(std::span<const SamplingRow>);
+template std::vector<Row> from_csv<Row>(std::string_view, std::string_view);
+template std::vector<DetailRow> from_csv<DetailRow>(std::string_view, std::string_view);
+template std::vector<TimelineRow> from_csv<TimelineRow>(std::string_view, std::string_view);
+template std::vector<SamplingRow> from_csv<SamplingRow>(std::string_view, std::string_view);
+template void write_csv<Row>(const std::filesystem::path&, std::span<const Row>);
+template void write_csv<DetailRow>(const std::filesystem::path&, std::span<const DetailRow>);
+template void write_csv<TimelineRow>(const std::filesystem::path&, std::span<const TimelineRow>);
+template void write_csv<SamplingRow>(const std::filesystem::path&, std::span<const SamplingRow>);
+template std::vector<Row> read_csv<Row>(const std::filesystem::path&);
+template std::vector<DetailRow> read_csv<DetailRow>(const std::filesystem::path&);
+template std::vector<TimelineRow> read_csv<TimelineRow>(const std::filesystem::path&);
+template std::vector<SamplingRow> read_csv<SamplingRow>(const std::filesystem::path&);
 
 }  // namespace regather::results

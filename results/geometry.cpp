@@ -114,6 +114,12 @@ std::string decimal_count(double count) {
     return out;
 }
 
+ByteUnit byte_unit(double most) {
+    for (const ByteUnit unit : {ByteUnit{"GB", 1e9}, ByteUnit{"MB", 1e6}, ByteUnit{"kB", 1e3}})
+        if (most >= unit.bytes) return unit;
+    return {"bytes", 1};
+}
+
 std::string joined(std::span<const std::string> parts, std::string_view separator) {
     std::string out;
     for (const std::string& part : parts) {

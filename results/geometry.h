@@ -36,6 +36,13 @@ std::string binary_bytes(std::uint64_t bytes);   ///< "128 KiB", "1.5 MiB"
 std::string decimal_bytes(std::uint64_t bytes);  ///< "211 GB", "36.0 GB", "1.23 MB", "512 B"
 std::string decimal_count(double count);         ///< "26.2 M", "512"
 
+/// The decimal unit in which `most` bytes are at least 1.
+struct ByteUnit {
+    const char* name;
+    double bytes;
+};
+ByteUnit byte_unit(double most);
+
 /// The parts that are not empty, with `separator` between them.
 std::string joined(std::span<const std::string> parts, std::string_view separator);
 

@@ -30,13 +30,17 @@ constexpr std::string_view spare_colours[] = {"#332288", "#44aa99", "#aa4499",
                                               "#661100", "#6699cc", "#117733"};
 
 /// What, besides ordering, tile and bins, tells two curves apart.
-constexpr std::size_t trait_count = 6;
+constexpr std::size_t trait_count = 7;
 using Traits = std::array<std::string, trait_count>;
 
 Traits traits_of(const Row& row) {
-    return {row.scene,     row.frame ? fmt::format("frame {}", *row.frame) : "",
-            row.structure, row.layout,
-            row.policy,    other_parameters(row)};
+    return {row.scene,
+            row.frame ? fmt::format("frame {}", *row.frame) : "",
+            row.structure,
+            row.layout,
+            row.policy,
+            row.set_sampling.value_or(1) > 1 ? fmt::format("1/{} of the sets", *row.set_sampling) : "",
+            other_parameters(row)};
 }
 
 struct Group {

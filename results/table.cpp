@@ -7,16 +7,22 @@
 #include <iterator>
 #include <vector>
 
+#include "results/benefit.h"
 #include "results/geometry.h"
 #include "results/series.h"
 
 namespace regather::results {
 namespace {
 
-constexpr std::array<const char*, 9> header = {"ordering", "tile",      "bins",   "traffic", "of naive",
-                                               "x floor",  "ops/query", "buffer", "reorder"};
+constexpr std::array<const char*, 12> header = {"ordering",  "tile",     "bins",    "traffic",
+                                                "+-",        "of naive", "x floor", "3C [%]",
+                                                "ops/query", "buffer",   "reorder", "net"};
+/// Columns that are there only when one of their cells is not empty.
+constexpr bool is_optional(std::size_t column) {
+    return column == 4 || column == 7 || column == 11;
+}
 using Cells = std::array<std::string, header.size()>;
-constexpr std::size_t longest_ordering = 30;
+constexpr std::size_t longest_ordering = 30, widest = 120;
 
 std::string heading(const Row& row) {
     std::vector<std::string> parts = {row.scene};
@@ -49,6 +55,30 @@ std::string per_query(const Row& row) {
     return ratio(row.key_ops, row.queries, 1);
 }
 
+/// Half the width of the 95 % interval of sampled misses, and so of their traffic: "1.3 %".
+std::string uncertainty(const Row& row) {
+    if (row.set_sampling.value_or(1) == 1 || !row.misses_low || !row.misses_high ||
+        *row.misses_high < *row.misses_low)
+        return "";
+    const std::string half = ratio(*row.misses_high - *row.misses_low, row.misses, 50);
+    return half.empty() ? "" : half + " %";
+}
+
+/// Compulsory / capacity / conflict as shares of their sum: "0/60/40".
+std::string classes(const Row& row) {
+    if (!row.compulsory || !row.capacity || !row.conflict) return "";
+    const auto sum = static_cast<double>(*row.compulsory + *row.capacity + *row.conflict);
+    if (sum == 0) return "";
+    const auto share = [&](const Count& part) { return 100 * static_cast<double>(*part) / sum; };
+    return fmt::format("{:.0f}/{:.0f}/{:.0f}", share(row.compulsory), share(row.capacity),
+                       share(row.conflict));
+}
+
+std::string net(const Row& row) {
+    const auto bytes = net_traffic(row);
+    return row.buffer_traffic_bytes && bytes ? decimal_bytes(*bytes) : "";
+}
+
 std::string bytes(const Count& count) {
     return count ? decimal_bytes(*count) : "";
 }
@@ -69,35 +99,52 @@ Cells cells_of(const Row& row, std::span<const Row* const> block) {
     std::string ordering = row.ordering;
     if (const std::string parameters = other_parameters(row); ambiguous && !parameters.empty())
         ordering += " (" + parameters + ")";
-    if (ordering.size() > longest_ordering) ordering = ordering.substr(0, longest_ordering - 3) + "...";
     const std::string share =
         naive == block.end() ? "" : ratio(row.traffic_bytes, (*naive)->traffic_bytes, 100);
     return {ordering,
             number(row.tile),
             row.bins ? fmt::format("{0}x{0}", *row.bins) : "",
             bytes(row.traffic_bytes),
+            uncertainty(row),
             share.empty() ? "" : share + " %",
             ratio(row.traffic_bytes, row.compulsory_bytes, 1),
+            classes(row),
             per_query(row),
             bytes(row.buffered_bytes),
-            bytes(row.reorder_bytes)};
+            bytes(row.reorder_bytes),
+            net(row)};
 }
 
 std::string block_text(std::span<const Row* const> block) {
     std::vector<Cells> lines(1);
     std::copy(header.begin(), header.end(), lines[0].begin());
     for (const Row* row : block) lines.push_back(cells_of(*row, block));
-    std::array<std::size_t, header.size()> widths{};
-    for (const Cells& line : lines)
-        for (std::size_t c = 0; c < line.size(); ++c) widths[c] = std::max(widths[c], line[c].size());
+    std::array<std::size_t, header.size()> widths{};  // 0: left away
+    std::size_t others = 0;
+    for (std::size_t c = 0; c < header.size(); ++c) {
+        const bool shown =
+            !is_optional(c) ||
+            std::any_of(lines.begin() + 1, lines.end(), [&](const Cells& line) { return !line[c].empty(); });
+        if (!shown) continue;
+        for (const Cells& line : lines) widths[c] = std::max(widths[c], line[c].size());
+        if (c > 0) others += 2 + widths[c];
+    }
+    const std::size_t most =
+        std::min(longest_ordering, std::max<std::size_t>(widest - std::min(others, widest), 12));
+    for (Cells& line : lines)
+        if (line[0].size() > most) line[0] = line[0].substr(0, most - 3) + "...";
+    widths[0] = std::min(widths[0], most);
 
     std::string out = heading(*block.front()) + '\n';
     for (const Cells& line : lines) {
         std::string text = fmt::format("{:<{}}", line[0], widths[0]);
         for (std::size_t c = 1; c < line.size(); ++c)
-            fmt::format_to(std::back_inserter(text), "  {:>{}}", line[c], widths[c]);
+            if (widths[c] > 0) fmt::format_to(std::back_inserter(text), "  {:>{}}", line[c], widths[c]);
         out += text.substr(0, text.find_last_not_of(' ') + 1) + '\n';
     }
+    if (widths[7] > 0) out += "3C = compulsory / capacity / conflict misses\n";
+    if (widths[4] > 0) out += "+- = half the 95 % confidence interval of the sampled misses\n";
+    if (widths[11] > 0) out += "net = traffic of photons and of reorder buffers\n";
     const std::string floor = floor_text(*block.front());
     return floor.empty() ? out : out + floor + '\n';
 }

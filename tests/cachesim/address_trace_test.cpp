@@ -230,6 +230,19 @@ TEST_F(AddressTraceTest, ForeignTypesAreRefused) {
     EXPECT_THAT(refusal({addresses({1, 2}), text("no column"), {}}), HasSubstr("expected a .npy"));
 }
 
+TEST_F(AddressTraceTest, ThePositionEndsAtTheTotal) {
+    const auto end = [](const AddressFiles& files) {
+        AddressTrace trace(files);
+        EXPECT_LT(trace.position().done, trace.position().total);
+        while (!trace.next().empty()) {
+        }
+        EXPECT_EQ(trace.position().done, trace.position().total);
+        return std::pair(trace.position().total, std::string(trace.position().unit));
+    };
+    EXPECT_EQ(end({addresses({1, 2, 3})}), std::pair(std::uint64_t{3}, std::string("records")));
+    EXPECT_EQ(end({text("0 4\n1 8 word")}), std::pair(std::uint64_t{12}, std::string("B")));
+}
+
 TEST_F(AddressTraceTest, ATruncatedColumnIsRefused) {
     const path where = addresses({1, 2, 3});
     std::filesystem::resize_file(where, std::filesystem::file_size(where) - 1);

@@ -9,18 +9,18 @@ namespace regather::cli {
 namespace {
 
 TEST(ParseCache, SizeLineAndWays) {
-    const cachesim::CacheConfig cache = parse_cache("128K:128:8");
+    const cachesim::CacheConfig cache = parse_caches("128K:128:8").front();
     EXPECT_EQ(cache.size_bytes, 131072u);
     EXPECT_EQ(cache.line_bytes, 128u);
     EXPECT_EQ(cache.ways, 8u);
-    EXPECT_EQ(parse_cache("3K:64:3").ways, 3u);  // 16 sets
-    EXPECT_EQ(parse_cache("64:64:1").size_bytes, 64u);
-    EXPECT_EQ(parse_cache("3000:8:full").ways, cachesim::fully_associative);
+    EXPECT_EQ(parse_caches("3K:64:3").front().ways, 3u);  // 16 sets
+    EXPECT_EQ(parse_caches("64:64:1").front().size_bytes, 64u);
+    EXPECT_EQ(parse_caches("3000:8:full").front().ways, cachesim::fully_associative);
 }
 
 TEST(ParseCache, ItsTextIsReadBack) {
     for (const char* text : {"131072:128:8", "16384:64:full", "64:64:1"})
-        EXPECT_EQ(cache_text(parse_cache(text)), text);
+        EXPECT_EQ(cache_text(parse_caches(text).front()), text);
 }
 
 TEST(ParseCache, AllElseIsAUsageError) {
@@ -44,7 +44,14 @@ TEST(ParseCache, AllElseIsAUsageError) {
                              "8G:4294967296:1",
                              "128K:256K:1",
                              "big:128:8"})
-        EXPECT_THROW(parse_cache(text), trace::UsageError) << text;
+        EXPECT_THROW(parse_caches(text), trace::UsageError) << text;
+}
+
+TEST(ParseCaches, ListsAreMultipliedOutSizesOutermost) {
+    std::vector<std::string> texts;
+    for (const cachesim::CacheConfig& cache : parse_caches("16K,32K:64,128:1,full")) texts.push_back(cache_text(cache));
+    EXPECT_THAT(texts, testing::ElementsAre("16384:64:1", "16384:64:full", "16384:128:1", "16384:128:full", "32768:64:1",
+                                            "32768:64:full", "32768:128:1", "32768:128:full"));
 }
 
 }  // namespace

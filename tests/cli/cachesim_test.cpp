@@ -3,9 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include "cli/commands.h"
 #include "trace/error.h"
@@ -56,7 +58,9 @@ protected:
     std::filesystem::path folder_;
 };
 
-const std::string header = "policy,size_bytes,line_bytes,ways,accesses,misses,traffic_bytes\n";
+const std::string header =
+    "policy,size_bytes,line_bytes,ways,accesses,hits,misses,compulsory,capacity,conflict,writebacks,"
+    "writes_through,traffic_bytes\n";
 
 // Lines of 64 bytes, * written:  0  1  2  0  1* 3        Lines of 128 bytes:  0  0  1  0  0* 1
 //   128 bytes, 1 way (2 sets):   m  m  m  m  h  m, 1* goes    1 way (1 set):  m  h  m  m  h  m, 0* goes
@@ -67,14 +71,14 @@ TEST_F(CachesimCommand, RowsComeInTheOrderAskedForWithHandCountedMisses) {
     run({file("addresses.npy"), "--writes", file("writes.npy"), "--size", "128,256", "--line", "64,128",
          "--ways", "1,full", "--csv", file("misses.csv")});
     EXPECT_EQ(content("misses.csv"), header +
-                                         "lru,128,64,1,6,5,384\n"
-                                         "lru,128,64,full,6,6,448\n"
-                                         "lru,128,128,1,6,4,640\n"
-                                         "lru,128,128,full,6,4,640\n"
-                                         "lru,256,64,1,6,4,320\n"
-                                         "lru,256,64,full,6,4,320\n"
-                                         "lru,256,128,1,6,2,384\n"
-                                         "lru,256,128,full,6,2,384\n");
+                                         "lru,128,64,1,6,1,5,4,1,0,1,0,384\n"
+                                         "lru,128,64,full,6,0,6,4,2,0,1,0,448\n"
+                                         "lru,128,128,1,6,2,4,2,2,0,1,0,640\n"
+                                         "lru,128,128,full,6,2,4,2,2,0,1,0,640\n"
+                                         "lru,256,64,1,6,2,4,4,0,0,1,0,320\n"
+                                         "lru,256,64,full,6,2,4,4,0,0,1,0,320\n"
+                                         "lru,256,128,1,6,4,2,2,0,0,1,0,384\n"
+                                         "lru,256,128,full,6,4,2,2,0,0,1,0,384\n");
 }
 
 TEST_F(CachesimCommand, SizesStraddleLines) {
@@ -82,7 +86,7 @@ TEST_F(CachesimCommand, SizesStraddleLines) {
     // Lines: 0 1 | 1 | 2 | 0 | 1 | 3 4 5: 9 accesses, and each of the 6 lines is fetched once.
     run({file("addresses.npy"), "--sizes", file("sizes.npy"), "--size", "1K", "--line", "64", "--ways",
          "full", "--csv", file("misses.csv")});
-    EXPECT_EQ(content("misses.csv"), header + "lru,1024,64,full,9,6,384\n");
+    EXPECT_EQ(content("misses.csv"), header + "lru,1024,64,full,9,3,6,6,0,0,0,0,384\n");
 }
 
 TEST_F(CachesimCommand, DinTextGoesToStdoutWithoutACsv) {
@@ -90,7 +94,81 @@ TEST_F(CachesimCommand, DinTextGoesToStdoutWithoutACsv) {
     testing::internal::CaptureStdout();
     run({file("program.din"), "--size", "4K", "--line", "64", "--ways", "2"});
     // Lines 0, 1, 1*, 0; the dirty line is written back at the end.
-    EXPECT_EQ(testing::internal::GetCapturedStdout(), header + "lru,4096,64,2,4,2,192\n");
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), header + "lru,4096,64,2,4,2,2,2,0,0,1,0,192\n");
+}
+
+/// The rows of tests/cachesim/din/NAME.din, whose outcomes stand in its comments, access by access.
+class WorkedByHand : public CachesimCommand {
+protected:
+    void SetUp() override {
+        CachesimCommand::SetUp();
+        source_ = std::getenv("REGATHER_SOURCE_DIR");
+        if (source_ == nullptr) GTEST_SKIP() << "REGATHER_SOURCE_DIR is set by ctest";
+    }
+    std::string rows(const std::string& name, std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(), std::string(source_) + "/tests/cachesim/din/" + name);
+        testing::internal::CaptureStdout();
+        run(arguments);
+        const std::string table = testing::internal::GetCapturedStdout();
+        EXPECT_EQ(table.substr(0, header.size()), header);
+        return table.substr(header.size());
+    }
+
+    const char* source_ = nullptr;
+};
+
+TEST_F(WorkedByHand, BeladysString) {
+    EXPECT_EQ(rows("belady.din",
+                   {"--size", "192,256", "--line", "64", "--ways", "full", "--policy", "fifo,lru,opt"}),
+              "fifo,192,64,full,12,3,9,5,4,0,0,0,576\n"
+              "lru,192,64,full,12,2,10,5,5,0,0,0,640\n"
+              "opt,192,64,full,12,5,7,5,2,0,0,0,448\n"
+              "fifo,256,64,full,12,2,10,5,3,2,0,0,640\n"
+              "lru,256,64,full,12,4,8,5,3,0,0,0,512\n"
+              "opt,256,64,full,12,6,6,5,1,0,0,0,384\n");
+}
+
+TEST_F(WorkedByHand, AScanThroughFourWays) {
+    EXPECT_EQ(
+        rows("scan.din", {"--size", "256", "--line", "64", "--ways", "4", "--policy", "lru,plru,srrip,opt"}),
+        "lru,256,64,4,10,2,8,6,2,0,0,0,512\n"
+        "plru,256,64,4,10,3,7,6,1,0,0,0,448\n"
+        "srrip,256,64,4,10,4,6,6,0,0,0,0,384\n"
+        "opt,256,64,4,10,4,6,6,0,0,0,0,384\n");
+}
+
+TEST_F(WorkedByHand, FourWaysToWrite) {
+    const auto row = [&](const char* write, const char* write_miss) {
+        return rows("writes.din", {"--size", "128", "--line", "64", "--ways", "2", "--write", write,
+                                   "--write-miss", write_miss});
+    };
+    EXPECT_EQ(row("back", "allocate"), "lru,128,64,2,7,2,5,3,2,0,3,0,512\n");
+    EXPECT_EQ(row("through", "allocate"), "lru,128,64,2,7,2,5,3,2,0,0,3,332\n");
+    EXPECT_EQ(row("back", "no-allocate"), "lru,128,64,2,7,3,4,3,1,0,1,2,200\n");
+    EXPECT_EQ(row("through", "no-allocate"), "lru,128,64,2,7,3,4,3,1,0,0,3,140\n");
+}
+
+TEST_F(WorkedByHand, AStrideThroughTheSets) {
+    EXPECT_EQ(rows("stride.din", {"--size", "256,192", "--line", "64", "--ways", "1"}),
+              "lru,256,64,1,8,0,8,4,0,4,0,0,512\n"
+              "lru,192,64,1,8,3,5,4,1,0,0,0,320\n");
+    EXPECT_EQ(rows("stride.din", {"--size", "256", "--line", "64", "--ways", "1", "--index", "hashed"}),
+              "lru,256,64,1,8,4,4,4,0,0,0,0,256\n");
+    EXPECT_EQ(rows("stride.din", {"--size", "256", "--line", "64", "--ways", "1", "--no-3c"}),
+              "lru,256,64,1,8,0,8,,,,0,0,512\n");
+}
+
+TEST_F(WorkedByHand, RandomRepeatsWithItsSeed) {
+    const auto row = [&](const char* seed) {
+        return rows("belady.din", {"--size", "192", "--line", "64", "--ways", "full", "--policy", "random",
+                                   "--seed", seed});
+    };
+    std::set<std::string> different;
+    for (const char* const seed : {"0", "1", "2", "3", "4", "5", "6", "7"}) {
+        different.insert(row(seed));
+        EXPECT_EQ(row(seed), row(seed));
+    }
+    EXPECT_GT(different.size(), 1u);
 }
 
 TEST_F(CachesimCommand, AFileIsOverwrittenOnlyByForce) {
@@ -101,7 +179,7 @@ TEST_F(CachesimCommand, AFileIsOverwrittenOnlyByForce) {
     EXPECT_EQ(content("misses.csv"), "precious");
     arguments.push_back("--force");
     EXPECT_EQ(usage_error(arguments), "accepted");
-    EXPECT_EQ(content("misses.csv"), header + "lru,1024,64,1,6,4,256\n");
+    EXPECT_EQ(content("misses.csv"), header + "lru,1024,64,1,6,2,4,4,0,0,0,0,256\n");
     EXPECT_EQ(files(), 3u);  // two columns and the table: nothing temporary is left
 }
 
@@ -118,14 +196,38 @@ TEST_F(CachesimCommand, ImpossibleRequestsSayWhatWasFound) {
         return usage_error({file("addresses.npy"), "--size", size, "--line", line, "--ways", ways});
     };
     EXPECT_THAT(with("1K,1000", "64", "1"),
-                HasSubstr("--size 1000 --line 64 --ways 1: size_bytes: found 1000, expected"));
+                HasSubstr("--size 1000 --line 64 --ways 1 --policy lru: size_bytes: found 1000, expected"));
     EXPECT_THAT(with("1K", "48", "1"), HasSubstr("line_bytes: found 48, expected a power of two"));
-    EXPECT_THAT(with("1K", "64", "8,3"), HasSubstr("--ways 3: ways: found 3 ways of 16 lines"));
+    EXPECT_THAT(with("1K", "64", "8,3"), HasSubstr("--ways 3 --policy lru: ways: found 3 ways of 16 lines"));
     EXPECT_THAT(with("1K", "64", "0"), HasSubstr("--ways: found '0'"));
     EXPECT_THAT(with("1K", "64", "all"),
                 HasSubstr("--ways: found 'all', expected a number from 1 up, or full"));
     EXPECT_THAT(with("1K,", "64", "1"), HasSubstr("size: found ''"));
     EXPECT_THAT(with("1K", "4G", "1"), HasSubstr("--line: found 4G"));
+}
+
+TEST_F(CachesimCommand, ImpossiblePoliciesSayWhatWasFound) {
+    const auto with = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), {file("addresses.npy"), "--size", "768", "--line", "64", "--ways", "3"});
+        return usage_error(words);
+    };
+    EXPECT_EQ(with({"--policy", "lru,srrip,opt", "--csv", file("misses.csv")}), "accepted");
+    EXPECT_THAT(
+        with({"--policy", "lru,plru"}),
+        HasSubstr("--ways 3 --policy plru: ways: found 3 ways with policy plru, expected a power of"));
+    EXPECT_THAT(with({"--policy", "mru"}), HasSubstr("policy: found 'mru', expected one of: lru, fifo"));
+    EXPECT_THAT(with({"--policy", "lru,"}), HasSubstr("policy: found ''"));
+    EXPECT_THAT(with({"--write", "around"}),
+                HasSubstr("write: found 'around', expected one of: back, through"));
+    EXPECT_THAT(with({"--write-miss", "no"}), HasSubstr("write_miss: found 'no'"));
+    EXPECT_THAT(with({"--index", "prime"}),
+                HasSubstr("index: found 'prime', expected one of: modulo, hashed"));
+    EXPECT_EQ(with({"--index", "hashed", "--no-3c", "--csv", file("hashed.csv")}), "accepted");  // 4 sets
+    EXPECT_THAT(with({"--policy", "opt", "--write-miss", "no-allocate"}),
+                HasSubstr("write_miss: found no-allocate with policy opt"));
+    EXPECT_THAT(with({"--policy", "opt", "--opt-limit", "5", "--csv", file("opt.csv")}),
+                HasSubstr("policy opt: found more than 5 line accesses"));
+    EXPECT_FALSE(std::filesystem::exists(file("opt.csv")));
 }
 
 TEST_F(CachesimCommand, HelpShowsTwoExamples) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reorder/catalogue.h"
+#include "reorder/cell_block.h"
 #include "tests/reorder/workload.h"
 
 namespace regather::reorder {
@@ -61,6 +62,45 @@ TEST(Hilbert, FineCurvesRefineCoarseOnes) {
         const std::uint64_t code = hilbert_code(morton, 21);
         EXPECT_EQ(hilbert_code(morton >> 3, 20), code >> 3);
         EXPECT_EQ(hilbert_code(morton >> 33, 10), code >> 33);
+    }
+}
+
+// The table and the lanes share no code but the curve's definition.
+TEST(Hilbert, BlocksOfCellsHaveTheCodesOfSingleCells) {
+    for (std::uint32_t bits = 1; bits <= max_curve_bits; ++bits) {
+        const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
+        CellBlock block;
+        for (std::size_t i = 0; i < CellBlock::cells; ++i) {
+            block.x[i] = static_cast<std::uint32_t>(scrambled(3 * i) & mask);
+            block.y[i] = static_cast<std::uint32_t>(scrambled(3 * i + 1) & mask);
+            block.z[i] = static_cast<std::uint32_t>(scrambled(3 * i + 2) & mask);
+        }
+        CellBlock turned = block;
+        turn_along_hilbert(turned, bits);
+        for (std::size_t i = 0; i < CellBlock::cells; ++i)
+            ASSERT_EQ(morton_code({turned.x[i], turned.y[i], turned.z[i]}),
+                      hilbert_code(morton_code({block.x[i], block.y[i], block.z[i]}), bits))
+                << bits << " bits";
+    }
+}
+
+// More queries than a block, and a block that is not full; every third position has no cell.
+TEST(CurveSorted, KeysOfManyQueriesAreTheCodesOfTheirCells) {
+    Queries queries = one_per_pixel(700, 1);
+    for (std::size_t i = 0; i < 700; ++i) {
+        queries.position[i] = {static_cast<float>(scrambled(i) % 1024),
+                               static_cast<float>(scrambled(i + 700) % 1024), static_cast<float>(i % 1024)};
+        if (i % 3 == 1) queries.position[i].y = NAN;
+    }
+    queries.position[0] = {0, 0, 0};
+    queries.position[699] = {1024, 1024, 1024};
+    std::vector<std::uint64_t> keys(700);
+    make_ordering("hilbert:bits=10")->assign_keys(queries.workload(), default_onchip_bytes, keys);
+    for (std::size_t i = 0; i < 699; ++i) {
+        const Vec3 p = queries.position[i];
+        const Cell cell{static_cast<std::uint32_t>(p.x), i % 3 == 1 ? 0 : static_cast<std::uint32_t>(p.y),
+                        static_cast<std::uint32_t>(p.z)};
+        ASSERT_EQ(keys[i], i % 3 == 1 ? 1u << 30 : hilbert_code(morton_code(cell), 10)) << i;
     }
 }
 

@@ -71,6 +71,12 @@ std::uint64_t misses_of_a_list(std::span<const std::uint64_t> lines, std::uint64
     return misses;
 }
 
+Replayed replay(const WalkStore& walks, const HeapLayout& layout, std::span<const std::uint32_t> order,
+                std::span<const cachesim::CacheConfig> caches) {
+    const ReplayConfig config{{caches.begin(), caches.end()}, false};
+    return replay(walks, layout, order, config, count_revisits(walks, layout, config));
+}
+
 std::vector<std::uint32_t> shuffled(std::size_t count, std::uint64_t seed) {
     std::vector<std::uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0u);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "results/plot.h"
+#include "tests/results/drawing.h"
 #include "tests/results/folder.h"
 #include "tests/results/rows.h"
 #include "trace/error.h"
@@ -34,8 +35,7 @@ std::vector<Row> figure() {
 }
 
 Chart compose(std::string_view name, const std::vector<Row>& rows, const ChartOptions& options = {}) {
-    const ChartKind& kind = chart_kind(name);
-    return kind.compose(kind, rows, options);
+    return compose(name, Rows{rows, {}, {}, {}}, options);
 }
 
 /// The data block of the curve `label` in panel `panel`, its numbers as written.
@@ -149,7 +149,7 @@ TEST(Chart, AnUnknownKindIsRefusedWithTheKnownOnes) {
         EXPECT_STREQ(
             error.what(),
             "chart \"pie\" is not known, expected one of traffic-by-tile, traffic-by-cache, cost-by-tile, "
-            "cost-by-bins");
+            "cost-by-bins, misses-by-class, net-benefit, traffic-by-depth, timeline, sampling-error");
     }
 }
 
@@ -163,8 +163,10 @@ TEST(Chart, TicksAreRoundAndEnclose) {
 TEST(Chart, EveryKindBecomesTwoPicturesWithItsLabels) {
     const Folder folder;
     const auto drawn = write_charts(folder.path(), figure(), {}, {});
-    ASSERT_EQ(drawn.size(), 4u);
-    for (const Drawn& one : drawn) {
+    ASSERT_EQ(drawn.size(), 6u);
+    EXPECT_EQ(drawn[4].skipped, "no row has compulsory, capacity and conflict");
+    EXPECT_EQ(drawn[5].kind, "net-benefit");
+    for (const Drawn& one : std::span(drawn).first(4)) {
         ASSERT_EQ(one.files.size(), 2u) << one.kind << one.skipped;
         const std::string svg = trace::read_file(one.files[0]), png = trace::read_file(one.files[1]);
         EXPECT_THAT(svg, HasSubstr("<title>" + std::string(chart_kind(one.kind).title) + "</title>"));

@@ -5,6 +5,7 @@
 #include <rapidcheck.h>
 
 #include <cmath>
+#include <set>
 
 #include "tests/results/folder.h"
 #include "trace/error.h"
@@ -17,11 +18,15 @@ constexpr const char* issue_header =
     "scene,frame,ordering,tile,bins,structure,layout,policy,cache_bytes,line_bytes,ways,queries,accesses,"
     "raw_bytes,oracle_bytes,compulsory_bytes,misses,traffic_bytes,reorder_bytes,key_ops,moved_records,"
     "buffered_bytes,recast_rays,order_seconds,replay_seconds";
+constexpr const char* further_header =
+    ",parameters,keys,sort_passes,stalls,compulsory,capacity,conflict,writebacks,onchip_bytes,"
+    "buffer_traffic_bytes,net_benefit_bytes,set_sampling,sampled_sets,misses_stderr,misses_low,misses_high\n";
 
 /// What from_csv() says against `text`; "" when it takes it.
+template <class R = Row>
 std::string refusal(std::string_view text) {
     try {
-        from_csv(text, "mine.csv");
+        from_csv<R>(text, "mine.csv");
     } catch (const trace::DataError& error) {
         return error.what();
     }
@@ -39,7 +44,7 @@ rc::Gen<Count> any_count() {
 }
 
 TEST(Csv, BeginsWithTheColumnsOfTheContractInTheirOrder) {
-    EXPECT_EQ(to_csv({}), std::string(issue_header) + ",parameters,keys,sort_passes,stalls\n");
+    EXPECT_EQ(to_csv({}), std::string(issue_header) + further_header);
 }
 
 TEST(Csv, WritesAMeasurementAsDrawnByHand) {
@@ -61,59 +66,207 @@ TEST(Csv, WritesAMeasurementAsDrawnByHand) {
     row.traffic_bytes = 0;
     row.order_seconds = 0.25;
     row.replay_seconds = 12;
-    EXPECT_EQ(to_csv(std::span(&row, 1)),
-              std::string(issue_header) + ",parameters,keys,sort_passes,stalls\n" +
-                  "room,,direction-binned,16,8,left-balanced-kd,heap-20,lru,131072,128,full,1000,140000,"
-                  ",,,0,0,,,,,,0.250000,12.000000,\"direction-binned:tile=16,bins=8\",,,\n");
+    row.net_benefit_bytes = -20;
+    row.misses_stderr = 0.1;
+    EXPECT_EQ(
+        to_csv(std::span(&row, 1)),
+        std::string(issue_header) + further_header +
+            "room,,direction-binned,16,8,left-balanced-kd,heap-20,lru,131072,128,full,1000,140000,"
+            ",,,0,0,,,,,,0.250000,12.000000,\"direction-binned:tile=16,bins=8\",,,,,,,,,,-20,,,0.1,,\n");
 }
 
-TEST(Csv, GivesBackEveryFieldOfAnyRows) {
-    ASSERT_TRUE(rc::check([] {
-        std::vector<Row> rows(static_cast<std::size_t>(*rc::gen::inRange(0, 4)));
-        for (Row& row : rows) {
-            for (const auto field :
-                 {&Row::scene, &Row::structure, &Row::layout, &Row::policy, &Row::parameters})
-                row.*field = *any_text();
-            row.ordering = "x" + *any_text();
-            for (const auto field : {&Row::frame,
-                                     &Row::tile,
-                                     &Row::bins,
-                                     &Row::cache_bytes,
-                                     &Row::line_bytes,
-                                     &Row::ways,
-                                     &Row::queries,
-                                     &Row::accesses,
-                                     &Row::raw_bytes,
-                                     &Row::oracle_bytes,
-                                     &Row::compulsory_bytes,
-                                     &Row::misses,
-                                     &Row::traffic_bytes,
-                                     &Row::keys,
-                                     &Row::key_ops,
-                                     &Row::sort_passes,
-                                     &Row::moved_records,
-                                     &Row::buffered_bytes,
-                                     &Row::reorder_bytes,
-                                     &Row::recast_rays,
-                                     &Row::stalls})
-                row.*field = *any_count();
-            for (const auto field : {&Row::order_seconds, &Row::replay_seconds})
-                if (*rc::gen::arbitrary<bool>()) row.*field = *rc::gen::inRange(0, 100000000) / 1e6;
-        }
-        const auto back = from_csv(to_csv(rows), "memory");
+/// Puts any value that the column can hold into its field.
+template <class R>
+struct Filler {
+    R& row;
+    void operator()(std::string R::*field) const {
+        row.*field = *any_text();
+        row.*field += 'x';  // an ordering has a name
+    }
+    void operator()(Count R::*field) const { row.*field = *any_count(); }
+    void operator()(Signed R::*field) const {
+        if (*rc::gen::arbitrary<bool>())
+            row.*field = *rc::gen::oneOf(rc::gen::arbitrary<std::int64_t>(), rc::gen::just(INT64_MIN));
+    }
+    void operator()(Flag R::*field) const {
+        if (*rc::gen::arbitrary<bool>()) row.*field = *rc::gen::arbitrary<bool>();
+    }
+    void operator()(Ways<R> ways) const { (*this)(ways.field); }
+    void operator()(Seconds<R> seconds) const {
+        if (*rc::gen::arbitrary<bool>()) row.*seconds.field = *rc::gen::inRange(0, 100000000) / 1e6;
+    }
+    void operator()(Real<R> real) const {
+        if (*rc::gen::arbitrary<bool>()) row.*real.field = std::abs(*rc::gen::arbitrary<double>());
+    }
+};
+template <class R>
+struct Same {
+    const R &a, &b;
+    template <class Field>
+    bool operator()(Field R::*field) const {
+        return a.*field == b.*field;
+    }
+    template <class Wrapped>
+    bool operator()(Wrapped wrapped) const {
+        return a.*wrapped.field == b.*wrapped.field;
+    }
+};
+
+template <class R>
+class CsvOf : public testing::Test {};
+using Kinds = testing::Types<Row, DetailRow, TimelineRow, SamplingRow>;
+TYPED_TEST_SUITE(CsvOf, Kinds);
+
+TYPED_TEST(CsvOf, GivesBackEveryColumnOfAnyRows) {
+    using R = TypeParam;
+    const auto sound = [] {
+        std::vector<R> rows(static_cast<std::size_t>(*rc::gen::inRange(0, 4)));
+        for (R& row : rows)
+            for (const Column<R>& column : columns<R>()) std::visit(Filler<R>{row}, column.field);
+        const auto back = from_csv<R>(to_csv<R>(rows), "memory");
         RC_ASSERT(back.size() == rows.size());
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            const auto fields = [](const Row& r) {
-                return std::tie(r.scene, r.frame, r.ordering, r.tile, r.bins, r.parameters, r.structure,
-                                r.layout, r.policy, r.cache_bytes, r.line_bytes, r.ways, r.queries,
-                                r.accesses, r.raw_bytes, r.oracle_bytes, r.compulsory_bytes, r.misses,
-                                r.traffic_bytes, r.keys, r.key_ops, r.sort_passes, r.moved_records,
-                                r.buffered_bytes, r.reorder_bytes, r.recast_rays, r.stalls, r.order_seconds,
-                                r.replay_seconds);
-            };
-            RC_ASSERT(fields(back[i]) == fields(rows[i]));
-        }
-    }));
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            for (const Column<R>& column : columns<R>())
+                RC_ASSERT(std::visit(Same<R>{back[i], rows[i]}, column.field));
+    };
+    ASSERT_TRUE(rc::check(sound));
+}
+
+/// No two columns share a name or a field, and no field is forgotten: a row of optional cells and texts is as
+/// large as its columns' fields, up to padding.
+TYPED_TEST(CsvOf, HasAColumnForEachField) {
+    using R = TypeParam;
+    std::set<std::string_view> names;
+    std::set<const void*> fields;
+    const R row;
+    std::size_t bytes = 0;
+    for (const Column<R>& column : columns<R>()) {
+        EXPECT_TRUE(names.insert(column.name).second) << column.name;
+        std::visit(
+            [&](auto field) {
+                const auto& cell = [&]() -> const auto& {
+                    if constexpr (requires { row.*field; })
+                        return row.*field;
+                    else
+                        return row.*field.field;
+                }
+                ();
+                EXPECT_TRUE(fields.insert(&cell).second) << column.name;
+                bytes += sizeof(cell);
+            },
+            column.field);
+    }
+    EXPECT_LE(bytes, sizeof(R));
+    EXPECT_LT(sizeof(R) - bytes, alignof(R));
+}
+
+TYPED_TEST(CsvOf, IsToldByItsHeader) {
+    using R = TypeParam;
+    const RowKind kind = std::is_same_v<R, DetailRow>     ? RowKind::detail
+                         : std::is_same_v<R, TimelineRow> ? RowKind::timeline
+                         : std::is_same_v<R, SamplingRow> ? RowKind::sampling
+                                                          : RowKind::measurement;
+    EXPECT_EQ(row_kind(to_csv<R>({}), "mine.csv"), kind);
+}
+
+TEST(Csv, OfAnUnknownHeaderIsTakenForMeasurements) {
+    EXPECT_EQ(row_kind("a,b\n", "mine.csv"), RowKind::measurement);
+    EXPECT_EQ(row_kind("ordering,cache_bytes,line_bytes,ways,slice,first_query,queries\n", "mine.csv"),
+              RowKind::measurement);
+    EXPECT_EQ(row_kind("misses,ordering,cache_bytes,line_bytes,ways,slice,first_query,queries\n", "mine.csv"),
+              RowKind::timeline);
+    EXPECT_THROW(row_kind("", "mine.csv"), trace::DataError);
+}
+
+TEST(Csv, WritesTheOtherKindsAsDrawnByHand) {
+    DetailRow detail;
+    detail.scene = "room";
+    detail.ordering = "hilbert";
+    detail.tile = 16;
+    detail.cache_bytes = 131072;
+    detail.line_bytes = 128;
+    detail.ways = 0;
+    detail.region = "photons";
+    detail.tree_depth = 3;
+    detail.accesses = 10;
+    detail.misses = 4;
+    detail.compulsory = 1;
+    detail.capacity = 2;
+    detail.conflict = 1;
+    detail.traffic_bytes = 512;
+    detail.used_bytes = 100;
+    EXPECT_EQ(
+        to_csv<DetailRow>(std::span(&detail, 1)),
+        "scene,ordering,tile,bins,parameters,layout,policy,cache_bytes,line_bytes,ways,region,tree_depth,"
+        "accesses,misses,compulsory,capacity,conflict,traffic_bytes,used_bytes\n"
+        "room,hilbert,16,,,,,131072,128,full,photons,3,10,4,1,2,1,512,100\n");
+    TimelineRow slice;
+    slice.ordering = "naive";
+    slice.cache_bytes = 4096;
+    slice.line_bytes = 64;
+    slice.ways = 1;
+    slice.slice = 2;
+    slice.first_query = 200;
+    slice.queries = 100;
+    slice.accesses = 900;
+    slice.misses = 50;
+    EXPECT_EQ(
+        to_csv<TimelineRow>(std::span(&slice, 1)),
+        "scene,ordering,tile,bins,parameters,cache_bytes,line_bytes,ways,slice,first_query,queries,accesses,"
+        "misses\n,naive,,,,4096,64,1,2,200,100,900,50\n");
+    SamplingRow sampled;
+    sampled.ordering = "naive";
+    sampled.cache_bytes = 4096;
+    sampled.line_bytes = 64;
+    sampled.ways = 8;
+    sampled.set_sampling = 16;
+    sampled.seed = 7;
+    sampled.misses = 90;
+    sampled.misses_stderr = 2.5;
+    sampled.misses_low = 85;
+    sampled.misses_high = 95;
+    sampled.exact_misses = 96;
+    sampled.covered = false;
+    sampled.seconds = 0.5;
+    sampled.exact_seconds = 8;
+    EXPECT_EQ(to_csv<SamplingRow>(std::span(&sampled, 1)),
+              "scene,ordering,parameters,cache_bytes,line_bytes,ways,set_sampling,seed,misses,misses_stderr,"
+              "misses_low,misses_high,exact_misses,covered,seconds,exact_seconds\n"
+              ",naive,,4096,64,8,16,7,90,2.5,85,95,96,0,0.500000,8.000000\n");
+}
+
+TEST(Csv, RefusesBadCellsAndMissingColumnsOfTheOtherKinds) {
+    const std::string row_header =
+        "ordering,cache_bytes,line_bytes,ways,traffic_bytes,net_benefit_bytes,misses_stderr\n";
+    for (const char* text : {"-", "+5", "1.0", "0x1", " 1", "--1"})
+        EXPECT_EQ(refusal(row_header + "naive,1,1,1,1," + text + ",\n"),
+                  std::string("mine.csv: line 2, column 6 (net_benefit_bytes): found \"") + text +
+                      "\", expected a whole number, with a minus when below 0, or an empty cell");
+    for (const char* text : {"9223372036854775808", "-9223372036854775809"})
+        EXPECT_EQ(refusal(row_header + "naive,1,1,1,1," + text + ",\n"),
+                  std::string("mine.csv: line 2, column 6 (net_benefit_bytes): found \"") + text +
+                      "\", expected a whole number from -2^63 to below 2^63");
+    EXPECT_EQ(refusal(row_header + "naive,1,1,1,1,-9223372036854775808,1e3\n"), "");
+    for (const char* text : {"nan", "inf", "-1", "1e999", "1,5", "2s"})
+        EXPECT_NE(
+            refusal(row_header + "naive,1,1,1,1,,\"" + text + "\"\n").find("column 7 (misses_stderr): found"),
+            std::string::npos);
+    const std::string sampling_header =
+        "ordering,cache_bytes,line_bytes,ways,set_sampling,misses,exact_misses,seconds,covered\n";
+    for (const char* text : {"2", "true", "01", "-1"})
+        EXPECT_EQ(refusal<SamplingRow>(sampling_header + "naive,1,1,1,2,1,1,1," + text + "\n"),
+                  std::string("mine.csv: line 2, column 9 (covered): found \"") + text +
+                      "\", expected 1, 0 or an empty cell");
+    EXPECT_EQ(refusal<DetailRow>("ordering,cache_bytes,line_bytes,ways,region,misses\n"),
+              "mine.csv: line 1, column 7 (tree_depth): found the end of the header, expected a column "
+              "\"tree_depth\"");
+    EXPECT_EQ(refusal<TimelineRow>("ordering,cache_bytes,line_bytes,ways,slice,queries,misses\n"),
+              "mine.csv: line 1, column 8 (first_query): found the end of the header, expected a column "
+              "\"first_query\"");
+    EXPECT_EQ(
+        refusal<DetailRow>(
+            "ordering,cache_bytes,line_bytes,ways,region,tree_depth,misses\nnaive,1,1,1,photons,-1,2\n"),
+        "mine.csv: line 2, column 6 (tree_depth): found \"-1\", expected a whole number or an empty cell");
 }
 
 TEST(Csv, TakesRowsThatSomebodyElseWrote) {

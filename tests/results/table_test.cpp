@@ -55,6 +55,55 @@ TEST(Table, WithoutNaiveThereIsNoShare) {
     EXPECT_EQ(table({}), "");
 }
 
+TEST(Table, ShowsClassesUncertaintyAndNetTrafficWhereRowsHaveThem) {
+    std::vector<Row> rows = {made_row("naive", {}, {}, 128000), made_row("hilbert", {}, {}, 12800)};
+    rows[0].misses = 1000;
+    rows[0].compulsory = 100;
+    rows[0].capacity = 594;
+    rows[0].conflict = 306;
+    rows[1].misses = 100;
+    rows[1].set_sampling = 16;
+    rows[1].misses_low = 98;
+    rows[1].misses_high = 103;
+    rows[1].reorder_bytes = 5000;
+    rows[1].buffer_traffic_bytes = 7200;
+    EXPECT_EQ(table(rows),
+              "room | 1.00 k queries | 128 KiB, 128 B lines, 8-way | lru | left-balanced-kd | heap-20\n"
+              "ordering  tile  bins  traffic      +-  of naive  x floor    3C [%]  ops/query  buffer  "
+              "reorder      net\n"
+              "naive                  128 kB             100 %           10/59/31\n"
+              "hilbert               12.8 kB  2.50 %    10.0 %                                        5.00 "
+              "kB  20.0 kB\n"
+              "3C = compulsory / capacity / conflict misses\n"
+              "+- = half the 95 % confidence interval of the sampled misses\n"
+              "net = traffic of photons and of reorder buffers\n");
+}
+
+TEST(Table, WithEveryColumnStaysWithinAHundredAndTwenty) {
+    std::vector<Row> rows = {with_parameters(made_row("direction-binned+hashed", 512, 32, 999400000000),
+                                             "x:tile=512,bins=32,passes=1024"),
+                             with_parameters(made_row("direction-binned+hashed", 512, 32, 1230000000),
+                                             "x:tile=512,bins=32,passes=1023"),
+                             made_row("naive", {}, {}, 999400000000)};
+    for (Row& row : rows) {
+        row.compulsory_bytes = 10000000;
+        row.buffered_bytes = row.reorder_bytes = row.buffer_traffic_bytes = 1230000000;
+        row.key_ops = 99999000;
+        row.misses = 100000;
+        row.compulsory = row.capacity = row.conflict = 33333;
+        row.set_sampling = 64;
+        row.misses_low = 95000;
+        row.misses_high = 105020;
+    }
+    std::istringstream lines(table(rows));
+    std::size_t longest = 0;
+    for (std::string line; std::getline(lines, line);) {
+        longest = std::max(longest, line.size());
+        EXPECT_LE(line.size(), 120u) << line;
+    }
+    EXPECT_EQ(longest, 120u);
+}
+
 TEST(Table, StaysWithinAHundredCharacters) {
     std::vector<Row> rows = {with_parameters(made_row("direction-binned+hashed", 512, 32, 999000000000),
                                              "x:tile=512,bins=32,passes=1024,buckets=65536,capacity=1048576"),

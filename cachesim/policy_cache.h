@@ -1,0 +1,98 @@
+// cachesim/policy_cache.h -- one exact cache of any policy but opt (policy.h), of any number of sets and
+// ways, with 64-bit lines and counts. Its steps are open, so that hierarchies can be built of them: touch,
+// insert and remove count nothing; access() is a whole cache between its user and memory, and counts. Up to
+// 32 ways a set is searched way by way, above through a hash table.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cachesim/cache.h"
+#include "cachesim/policy.h"
+#include "trace/region.h"
+
+namespace regather::cachesim {
+
+/// What is known of a line held. `region`: who wrote a dirty line last; who brought a clean line in.
+struct Held {
+    bool dirty = false;
+    trace::Region region = trace::Region::other;
+    friend bool operator==(const Held&, const Held&) = default;
+};
+
+struct Evicted {
+    Line line{};
+    bool dirty = false;
+    trace::Region region = trace::Region::other;  ///< As in Held.
+    friend bool operator==(const Evicted&, const Evicted&) = default;
+};
+
+class PolicyCache {
+public:
+    /// check()s it. Throws trace::UsageError for Policy::opt.
+    explicit PolicyCache(const PolicyConfig& config);
+    ~PolicyCache();
+    PolicyCache(PolicyCache&&) noexcept;
+    PolicyCache& operator=(PolicyCache&&) noexcept;
+
+    // ---- the steps: they count nothing ----
+
+    /// Uses `line` if it is held: the policy learns of the use, and a write makes it dirty (not with
+    /// WritePolicy::through). False, and nothing changes, if it is not held.
+    bool touch(Line line, Access kind, trace::Region region);
+    /// Brings in `line`, which must not be held, and returns what had to go for it, if anything. `dirty` is
+    /// taken as it is, with every WritePolicy.
+    std::optional<Evicted> insert(Line line, bool dirty, trace::Region region);
+    /// Takes `line` out, if it is held; the way becomes empty.
+    std::optional<Held> remove(Line line);
+    bool holds(Line line) const { return held(line).has_value(); }
+    std::optional<Held> held(Line line) const;  ///< Not a use.
+    /// Marks a line that is held as dirty, or as clean; not a use. False if it is not held.
+    bool set_dirty(Line line, bool dirty, trace::Region region);
+    /// What insert(line) would evict now. Random draws the same way at the next insert().
+    std::optional<Evicted> victim_for(Line line) const;
+    /// Takes out everything, set by set and way by way from 0 up.
+    std::vector<Evicted> drain();
+    /// Where `line` is held: set x ways + way, the same for as long as it stays. What a level knows of its
+    /// lines can stand beside the cache, by slot (line_store.h).
+    std::size_t slot(Line line) const;  ///< nowhere, if it is not held.
+    static constexpr std::size_t nowhere = ~std::size_t{0};
+    std::optional<Line> line_at(std::size_t slot) const;  ///< None: the way is empty.
+    struct Placed {
+        std::size_t slot;
+        std::optional<Evicted> evicted;
+    };
+    /// insert(), touch() with a read, and remove(), by the slot of a line that is held.
+    Placed place(Line line, bool dirty, trace::Region region);
+    void use_at(std::size_t slot);
+    void remove_at(std::size_t slot);
+    /// The lines of the set that `line` lives in, in the order of the ways, empty ways left out.
+    std::vector<Line> set_of(Line line) const;
+
+    // ---- a whole cache, which counts ----
+
+    struct Outcome {
+        bool hit;
+        std::optional<Evicted> evicted;
+    };
+    /// One access to `bytes` bytes of the line; reads do not ask for `bytes`.
+    Outcome access(Line line, Access kind, trace::Region region, std::uint32_t bytes);
+    /// Evicts everything, so that dirty lines are counted as written back.
+    void flush();
+
+    const PolicyConfig& config() const { return config_; }
+    const PolicyStats& stats(trace::Region region) const { return stats_[static_cast<std::size_t>(region)]; }
+    PolicyStats total() const;
+    std::uint64_t traffic_bytes() const { return total().traffic_bytes(config_.geometry.line_bytes); }
+
+    class Sets;  ///< The lines held and what the policy remembers of them. policy_cache.cpp
+private:
+    PolicyConfig config_;
+    std::array<PolicyStats, trace::region_count> stats_{};
+    std::unique_ptr<Sets> sets_;
+};
+
+}  // namespace regather::cachesim

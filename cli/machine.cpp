@@ -1,0 +1,214 @@
+#include "cli/machine.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for_each.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/progress.h"
+
+namespace regather::cli {
+
+namespace {
+
+using cachesim::DramStats;
+using cachesim::Hierarchy;
+using cachesim::LevelConfig;
+using cachesim::LevelStats;
+using cachesim::Machine;
+
+struct Column {
+    std::string_view name;
+    std::uint64_t LevelStats::*count;
+};
+constexpr Column level_columns[] = {{"accesses", &LevelStats::accesses},
+                                    {"hits", &LevelStats::hits},
+                                    {"misses", &LevelStats::misses},
+                                    {"sector_misses", &LevelStats::sector_misses},
+                                    {"victim_hits", &LevelStats::victim_hits},
+                                    {"writebacks", &LevelStats::writebacks},
+                                    {"clean_victims", &LevelStats::clean_victims},
+                                    {"writes_through", &LevelStats::passed_writes},
+                                    {"back_invalidations", &LevelStats::back_invalidations},
+                                    {"prefetches", &LevelStats::prefetches},
+                                    {"useful_prefetches", &LevelStats::useful_prefetches},
+                                    {"bytes_in", &LevelStats::bytes_in},
+                                    {"bytes_out", &LevelStats::bytes_out}};
+constexpr std::string_view dram_columns =
+    "bursts_read,bursts_written,row_hits,row_empty,row_conflicts,picojoules";
+
+bool took_part(const Hierarchy& hierarchy, trace::Region region) {
+    if (hierarchy.dram() && hierarchy.dram()->stats(region) != DramStats{}) return true;
+    for (std::size_t level = 0; level < hierarchy.levels(); ++level)
+        if (hierarchy.stats(level, region) != LevelStats{}) return true;
+    return false;
+}
+
+std::string bytes_in_words(std::uint64_t bytes) {
+    if (bytes >= 1 << 20 && bytes % (1 << 20) == 0) return fmt::format("{}M", bytes >> 20);
+    if (bytes >= 1 << 10 && bytes % (1 << 10) == 0) return fmt::format("{}K", bytes >> 10);
+    return fmt::format("{}", bytes);
+}
+
+std::string ways_in_words(const LevelConfig& level) {
+    const std::uint32_t ways = level.cache.geometry.ways;
+    return ways == cachesim::fully_associative ? "full" : fmt::format("{}-way", ways);
+}
+
+template <class Enum, std::size_t n>
+std::string_view word(const std::array<std::string_view, n>& names, Enum value) {
+    return names[static_cast<std::size_t>(value)];
+}
+
+void print_all() {
+    std::size_t widest = 0;
+    for (const cachesim::EmbeddedMachine& row : cachesim::machine_catalogue())
+        widest = std::max(widest, row.name.size());
+    for (const cachesim::EmbeddedMachine& row : cachesim::machine_catalogue()) {
+        const Machine machine = cachesim::load_machine(row.name);
+        std::string levels;
+        for (const LevelConfig& level : machine.levels)
+            levels += fmt::format("{}{} {} {}", levels.empty() ? "" : ", ", level.name,
+                                  bytes_in_words(level.cache.geometry.size_bytes), ways_in_words(level));
+        fmt::print("{:<{}}  {}\n{:<{}}  {}\n", row.name, widest, levels, "", widest, machine.summary);
+    }
+}
+
+void print_line(std::string_view label, std::string_view value, const std::vector<cachesim::Source>& sources,
+                std::string_view key) {
+    const auto source =
+        std::find_if(sources.begin(), sources.end(), [&](const auto& s) { return s.key == key; });
+    if (source == sources.end())
+        fmt::print("  {:<15}{}\n", label, value);
+    else
+        fmt::print("  {:<15}{:<14}{}\n", label, value, source->text);
+}
+
+void print_level(const LevelConfig& level, const std::vector<cachesim::Source>& sources) {
+    fmt::print("\n{}: {} sets of {}\n", level.name, level.cache.sets(), level.cache.ways());
+    const auto line = [&](std::string_view key, std::string_view value) {
+        print_line(key, value, sources, key);
+    };
+    line("size_bytes", fmt::format("{}", level.cache.geometry.size_bytes));
+    line("line_bytes", fmt::format("{}", level.line_bytes()));
+    line("sector_bytes", fmt::format("{}", level.sector()));
+    line("ways", level.cache.geometry.ways == cachesim::fully_associative
+                     ? "full"
+                     : fmt::format("{}", level.cache.geometry.ways));
+    line("policy", name_of(level.cache.policy));
+    line("write", word(cachesim::write_policy_names, level.cache.write));
+    line("write_miss", word(cachesim::write_miss_names, level.cache.write_miss));
+    line("index", word(cachesim::set_index_names, level.cache.index));
+    line("inclusion", word(cachesim::inclusion_names, level.inclusion));
+    line("victim_lines", fmt::format("{}", level.victim_lines));
+    line("prefetch", word(cachesim::prefetch_names, level.prefetch));
+}
+
+void print_dram(const cachesim::DramConfig& dram, const std::vector<cachesim::Source>& sources) {
+    fmt::print("\ndram\n");
+    const auto line = [&](std::string_view key, std::string_view value) {
+        print_line(key, value, sources, key);
+    };
+    line("channels", fmt::format("{}", dram.channels));
+    line("ranks", fmt::format("{}", dram.ranks));
+    line("banks", fmt::format("{}", dram.banks));
+    line("row_bytes", fmt::format("{}", dram.row_bytes));
+    line("burst_bytes", fmt::format("{}", dram.burst_bytes));
+    line("channel_bytes", fmt::format("{}", dram.channel_bytes));
+    line("bank_hash", word(cachesim::bank_hash_names, dram.bank_hash));
+    line("activate_pj", fmt::format("{}", dram.activate_pj));
+    line("read_pj", fmt::format("{}", dram.read_pj));
+    line("write_pj", fmt::format("{}", dram.write_pj));
+}
+
+void print_details(const std::string& name_or_path) {
+    const Machine machine = cachesim::load_machine(name_or_path);
+    fmt::print("{}\n", machine.name);
+    if (!machine.summary.empty()) fmt::print("{}\n", machine.summary);
+    for (std::size_t i = 0; i < machine.levels.size(); ++i)
+        print_level(machine.levels[i], machine.sources[i]);
+    if (machine.dram) print_dram(*machine.dram, machine.dram_sources);
+}
+
+}  // namespace
+
+std::vector<Machine> load_machines(std::string_view list) {
+    std::vector<Machine> machines;
+    for (std::size_t comma; (comma = list.find(',')) != list.npos; list.remove_prefix(comma + 1))
+        machines.push_back(cachesim::load_machine(list.substr(0, comma)));
+    machines.push_back(cachesim::load_machine(list));
+    return machines;
+}
+
+std::string machine_header() {
+    std::string header = "machine,level,region";
+    for (const Column& column : level_columns) header += fmt::format(",{}", column.name);
+    return fmt::format("{},{}\n", header, dram_columns);
+}
+
+std::string machine_rows(const Machine& machine, const Hierarchy& hierarchy) {
+    constexpr auto dram_cells = std::count(dram_columns.begin(), dram_columns.end(), ',') + 1;
+    std::string rows;
+    const auto open_row = [&](std::string_view level, std::size_t region) {
+        rows += fmt::format("{},{},{}", machine.name, level, trace::region_names[region]);
+    };
+    for (std::size_t level = 0; level < hierarchy.levels(); ++level)
+        for (std::size_t r = 0; r < trace::region_count; ++r) {
+            const auto region = static_cast<trace::Region>(r);
+            if (!took_part(hierarchy, region)) continue;
+            open_row(machine.levels[level].name, r);
+            for (const Column& column : level_columns)
+                rows += fmt::format(",{}", hierarchy.stats(level, region).*column.count);
+            rows += std::string(dram_cells, ',') + '\n';
+        }
+    const cachesim::Dram* const dram = hierarchy.dram();
+    if (!dram) return rows;
+    for (std::size_t r = 0; r < trace::region_count; ++r) {
+        const auto region = static_cast<trace::Region>(r);
+        if (!took_part(hierarchy, region)) continue;
+        const DramStats& stats = dram->stats(region);
+        open_row("dram", r);
+        rows += std::string(std::size(level_columns), ',');
+        rows += fmt::format(",{},{},{},{},{},{}\n", stats.bursts_read, stats.bursts_written, stats.row_hits,
+                            stats.row_empty, stats.row_conflicts, dram->picojoules(stats));
+    }
+    return rows;
+}
+
+std::string run_machines(std::span<const Machine> machines, const cachesim::AddressFiles& files) {
+    cachesim::AddressTrace trace(files);
+    std::vector<Hierarchy> hierarchies;
+    for (const Machine& machine : machines) hierarchies.push_back(machine.hierarchy());
+    Progress progress;
+    for (auto records = trace.next(); !records.empty(); records = trace.next()) {
+        tbb::parallel_for_each(
+            hierarchies, [&](Hierarchy& hierarchy) { hierarchy.access(records, trace::Region::other); });
+        const auto [done, total, unit] = trace.position();
+        if (total != 0) progress.update("cachesim", unit, done, total);
+    }
+    std::string csv = machine_header();
+    for (std::size_t i = 0; i < machines.size(); ++i) {
+        hierarchies[i].flush();
+        csv += machine_rows(machines[i], hierarchies[i]);
+    }
+    return csv;
+}
+
+void add_machines(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "machines", "Lists the embedded machines, or shows one with the source of each figure");
+    command->footer(
+        "Examples:\n"
+        "  regather machines                  the embedded machines\n"
+        "  regather machines gpu-a100         one of them: every figure and where it is from\n"
+        "  regather machines my_machine.json  a machine file (docs/machines.md): checked, then shown");
+    auto machine = std::make_shared<std::string>();
+    command->add_option("MACHINE", *machine, "an embedded machine's name, or a JSON file");
+    command->callback([machine] { machine->empty() ? print_all() : print_details(*machine); });
+}
+
+}  // namespace regather::cli

@@ -1,0 +1,243 @@
+// regather race -- the real searches of a trace's queries on this machine, in several orderings, against the
+// clock.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/contest.h"
+#include "cli/progress.h"
+#include "cli/version.h"
+#include "results/provenance.h"
+#include "spatial/photon_kd.h"
+#include "trace/error.h"
+#include "trace/file.h"
+#include "trace/folder.h"
+
+namespace regather::cli {
+namespace {
+
+constexpr std::string_view csv_header =
+    "scene,structure,ordering,tile,bins,parameters,queries,photons,k,threads,repeats,order_seconds_median,"
+    "search_seconds_median,search_seconds_min,search_seconds_max,search_seconds_mad,net_gain_seconds\n";
+
+struct Options {
+    std::filesystem::path trace, csv;
+    std::vector<std::string> orders{"naive", "random", "tiled", "hilbert", "hilbert:tile=16", "morton"};
+    std::vector<std::string> structures{"left-balanced", "bucketed"};
+    std::uint32_t k = 0, repeats = 11, threads = 1;
+    std::uint64_t queries = 0;
+    bool gathered = false, force = false;
+};
+
+/// The provenance beside the CSV counts, too: somebody's X.json is not ours to replace.
+void refuse_to_overwrite(const std::filesystem::path& csv, bool force) {
+    const std::filesystem::path json = results::provenance_path(csv);
+    if (json == csv)
+        throw trace::UsageError(
+            fmt::format("--csv: found {}, expected another ending than .json, which the provenance "
+                        "beside it bears",
+                        csv.string()));
+    if (force) return;
+    for (const std::filesystem::path& file : {csv, json})
+        if (std::filesystem::exists(file))
+            throw trace::UsageError(fmt::format("{}: exists; --force overwrites it", file.string()));
+}
+
+std::vector<Structure> parse_structures(const std::vector<std::string>& words) {
+    std::vector<Structure> parsed;
+    for (const std::string& word : words) {
+        const std::optional<Structure> structure = structure_named(word);
+        if (!structure)
+            throw trace::UsageError(
+                fmt::format("--structure: found '{}', expected left-balanced or bucketed", word));
+        if (std::find(parsed.begin(), parsed.end(), *structure) == parsed.end()) parsed.push_back(*structure);
+    }
+    return parsed;
+}
+
+/// A trace's queries, or a contiguous part from the middle of the capture, as orderings look at them.
+reorder::Workload workload(trace::TraceReader& trace, const reorder::Reads& reads, std::uint64_t asked_for) {
+    const std::uint64_t all = trace.info().queries, wanted = asked_for == 0 ? all : asked_for;
+    if (wanted > all)
+        throw trace::UsageError(
+            fmt::format("--queries: found {}, expected at most the trace's {}", wanted, all));
+    if (all == 0)
+        throw trace::DataError(fmt::format("{}: found no queries, expected at least 1",
+                                           (trace.folder() / "query_position.npy").string()));
+    const std::size_t first = (all - wanted) / 2;
+    reorder::Workload work;
+    work.position = trace.column<trace::Vec3>("query_position").subspan(first, wanted);
+    work.pixel = trace.column<std::uint32_t>("query_pixel").subspan(first, wanted);
+    if (reads.direction) work.direction = trace.column<trace::Vec3>("query_direction").subspan(first, wanted);
+    if (reads.leaf_kd) work.leaf_kd = trace.column<std::uint32_t>("query_leaf_kd").subspan(first, wanted);
+    if (reads.leaf_bvh) work.leaf_bvh = trace.column<std::uint32_t>("query_leaf_bvh").subspan(first, wanted);
+    work.bounds = trace::bounds_of(work.position);
+    work.image_width = trace.info().image_width;
+    work.image_height = trace.info().image_height;
+    return work;
+}
+
+std::string quoted(const std::string& cell) {
+    if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
+    std::string doubled;
+    for (const char c : cell) doubled.append(c == '"' ? 2 : 1, c);
+    return fmt::format("\"{}\"", doubled);
+}
+
+struct Result {
+    const trace::TraceInfo& info;
+    const std::vector<reorder::ParsedOrdering>& orderings;
+    const ContestConfig& config;
+    std::uint64_t queries;
+    Contest contest;
+};
+
+std::string csv_text(const Result& result) {
+    std::string csv(csv_header);
+    const auto number = [](const std::optional<std::uint32_t>& value) {
+        return value ? fmt::to_string(*value) : "";
+    };
+    for (const Standing& standing : result.contest.standings) {
+        const reorder::OrderingSpec& spec = result.orderings[standing.ordering].spec;
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n",
+                           quoted(result.info.scene), name(standing.structure), quoted(spec.name),
+                           number(spec.tile), number(spec.bins), quoted(spec.text), result.queries,
+                           result.info.photons, result.config.k, result.config.threads, result.config.repeats,
+                           standing.order.median, standing.search.median, standing.search.min,
+                           standing.search.max, standing.search.mad, standing.net_gain);
+    }
+    return csv;
+}
+
+/// One line an ordering, the structures side by side.
+std::string table_text(const Result& result) {
+    const auto per_query = [&](double seconds) {
+        return seconds * 1e6 / static_cast<double>(result.queries);
+    };
+    std::string out =
+        fmt::format("{} | {} queries | {} photons | k {} | {} thread{} | medians of {} repeats\n",
+                    result.info.scene, result.queries, result.info.photons, result.config.k,
+                    result.config.threads, result.config.threads == 1 ? "" : "s", result.config.repeats);
+    std::string names = fmt::format("{:<32} {:>9}", "", ""),
+                header = fmt::format("{:<32} {:>9}", "ordering", "order us");
+    for (const Structure structure : result.config.structures) {
+        names += fmt::format(" | {:<28}", name(structure));
+        header += fmt::format(" | {:>9} {:>7} {:>10}", "search us", "+- mad", "net gain s");
+    }
+    out += names + "\n" + header + "\n";
+    const std::size_t kinds = result.config.structures.size();
+    for (std::size_t i = 0; i < result.contest.standings.size(); i += kinds) {
+        const Standing& first = result.contest.standings[i];
+        out += fmt::format("{:<32} {:>9.3f}", result.orderings[first.ordering].spec.text,
+                           per_query(first.order.median));
+        for (std::size_t s = 0; s < kinds; ++s) {
+            const Standing& standing = result.contest.standings[i + s];
+            out += fmt::format(" | {:>9.3f} {:>7.3f} {:>10.3f}", per_query(standing.search.median),
+                               per_query(standing.search.mad), standing.net_gain);
+        }
+        out += "\n";
+    }
+    return out;
+}
+
+void race(const Options& options) {
+    if (!options.csv.empty()) refuse_to_overwrite(options.csv, options.force);
+    std::vector<reorder::ParsedOrdering> orderings;
+    reorder::Reads reads;
+    for (const std::string& spec : options.orders) {
+        orderings.push_back(reorder::parse_ordering(spec));
+        const reorder::Reads one = orderings.back().ordering->reads();
+        reads = {reads.direction || one.direction, reads.leaf_kd || one.leaf_kd,
+                 reads.leaf_bvh || one.leaf_bvh};
+    }
+    const auto is_naive = [](const reorder::ParsedOrdering& ordering) {
+        return ordering.spec.text == "naive";
+    };
+    if (std::none_of(orderings.begin(), orderings.end(), is_naive))
+        orderings.insert(orderings.begin(), reorder::parse_ordering("naive"));
+    const auto baseline = static_cast<std::size_t>(
+        std::find_if(orderings.begin(), orderings.end(), is_naive) - orderings.begin());
+
+    ContestConfig config;
+    config.structures = parse_structures(options.structures);
+    config.repeats = options.repeats;
+    config.threads = options.threads;
+    config.gathered = options.gathered;
+
+    trace::TraceReader trace(options.trace);
+    const trace::TraceInfo& info = trace.info();
+    config.k = options.k == 0 ? info.k : options.k;
+    const auto radius = info.parameters.find("radius");
+    if (radius != info.parameters.end() && radius->is_number()) config.radius = radius->get<float>();
+    const std::span<const trace::Photon> heap = trace.column<trace::Photon>("photon");
+    const spatial::PhotonKd tree(heap);
+    if (const std::uint32_t node = spatial::first_disorder(tree); node != tree.size())
+        throw trace::DataError(fmt::format("{}: row {} breaks the order of a left-balanced kd-tree",
+                                           (trace.folder() / "photon.npy").string(), node));
+    const reorder::Workload work = workload(trace, reads, options.queries);
+
+    Result result{info, orderings, config, work.position.size(), {}};
+    {
+        Progress progress;
+        result.contest =
+            contest(heap, work, orderings, baseline, config, [&](std::uint64_t done, std::uint64_t total) {
+                progress.update("racing", "queries", done, total);
+            });
+    }
+    if (config.k == info.k && result.queries == info.queries &&
+        result.contest.found_photons != info.found_photons)
+        throw std::runtime_error(fmt::format("{}: found_photons: found {}, the searches find {}",
+                                             (trace.folder() / "trace.json").string(), info.found_photons,
+                                             result.contest.found_photons));
+    if (!options.csv.empty()) {
+        trace::write_file(options.csv, csv_text(result));
+        results::write_provenance(options.csv, {command_line(), version(), git_revision(), trace.checksum()},
+                                  info.parameters);
+    }
+    fmt::print("{}", table_text(result));
+    if (!options.csv.empty()) fmt::print("rows: {}\n", options.csv.string());
+}
+
+}  // namespace
+
+void add_race(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command =
+        app.add_subcommand("race", "search a trace's queries on this machine in other orders, timed");
+    command->add_option("trace", options->trace, "the folder of a finished trace")->required();
+    command
+        ->add_option("--order,--reorderer", options->orders,
+                     "orderings as in replay; naive, which the others are compared with, runs in any case")
+        ->capture_default_str();
+    command->add_option("--structure", options->structures, "what is searched: left-balanced, bucketed")
+        ->delimiter(',')
+        ->capture_default_str();
+    command->add_option("--k", options->k, "photons of a gather; 0: as captured")
+        ->check(CLI::Range(0u, (1u << 31) - 1))
+        ->capture_default_str();
+    command->add_option("--queries", options->queries, "so many, from the middle of the capture; 0: all")
+        ->capture_default_str();
+    command->add_option("--repeats", options->repeats, "of each ordering")
+        ->check(CLI::Range(1u, 1000u))
+        ->capture_default_str();
+    command->add_option("--threads", options->threads, "for searches, keys and sort")
+        ->check(CLI::Range(1u, 1024u))
+        ->capture_default_str();
+    command->add_flag(
+        "--gathered", options->gathered,
+        "copy the positions into the order before the search; its time counts as the ordering's");
+    command->add_option("--csv", options->csv, "write the rows here, and X.json beside X.csv");
+    command->add_flag("--force", options->force, "overwrite the CSV");
+    command->footer(
+        "Examples:\n"
+        "  regather race out/room/trace\n"
+        "  regather race out/room/trace --order hilbert hilbert:tile=16 kd-leaf --structure bucketed --csv "
+        "race.csv");
+    command->callback([options] { race(*options); });
+}
+
+}  // namespace regather::cli

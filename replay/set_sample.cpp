@@ -1,0 +1,253 @@
+#include "replay/set_sample.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "replay/walk_lines.h"
+#include "replay/walk_run.h"
+#include "trace/error.h"
+
+namespace regather::replay {
+namespace {
+
+using cachesim::CacheConfig;
+using cachesim::Line;
+
+constexpr std::uint64_t most_classes_sampled = 64;
+constexpr double hot_share = 0.1;  // of the walks
+
+/// A 64-bit finalizer: Steele, Lea & Flood, "Fast Splittable Pseudorandom Number Generators", 2014.
+std::uint64_t mixed(std::uint64_t value) {
+    value = (value ^ value >> 30) * 0xBF58476D1CE4E5B9u;
+    value = (value ^ value >> 27) * 0x94D049BB133111EBu;
+    return value ^ value >> 31;
+}
+
+/// `count` of the numbers below `below`, without repetition.
+std::vector<std::uint64_t> chosen(std::uint64_t count, std::uint64_t below, std::uint64_t seed) {
+    std::vector<std::uint64_t> numbers(below);
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    const auto draw = [&](std::uint64_t number) { return std::pair(mixed(mixed(seed) + number), number); };
+    std::sort(numbers.begin(), numbers.end(), [&](std::uint64_t a, std::uint64_t b) { return draw(a) < draw(b); });
+    numbers.resize(count);
+    std::sort(numbers.begin(), numbers.end());
+    return numbers;
+}
+
+}  // namespace
+
+double student_quantile_95(std::uint64_t degrees_of_freedom) {
+    // Two-sided 5 % points, as in any table of the t distribution.
+    static constexpr std::array<double, 31> table{0,     12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228,
+                                                  2.201, 2.179,  2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086, 2.080,
+                                                  2.074, 2.069,  2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042};
+    if (degrees_of_freedom < table.size()) return table[degrees_of_freedom];
+    // Expansion in 1/n about the normal quantile (Abramowitz & Stegun 26.7.5).
+    const double z = 1.959964, n = static_cast<double>(degrees_of_freedom);
+    return z + (z * z * z + z) / (4 * n) + (5 * std::pow(z, 5) + 16 * z * z * z + 3 * z) / (96 * n * n);
+}
+
+LineUse count_line_use(const WalkStore& walks, const HeapLayout& layout, std::span<const CacheConfig> caches,
+                       const QueriesDone& progress) {
+    struct Size {
+        WalkLines lines;
+        std::uint64_t first_line;
+        std::vector<std::uint64_t> walks;
+    };
+    struct Part {
+        spatial::WalkDecoder decoder;
+        std::vector<Size> sizes;
+    };
+    LineUse use;
+    for (const CacheConfig& cache : caches) {
+        const std::uint64_t first = layout.base / cache.line_bytes;
+        const std::uint64_t last = walks.photons() == 0 ? first
+                                                        : (layout.address(walks.photons()) + layout.used_bytes - 1) / cache.line_bytes;
+        use[cache.line_bytes].resize(last - first + 1);
+    }
+    tbb::enumerable_thread_specific<Part> parts([&] {
+        Part part{spatial::WalkDecoder(walks.photons()), {}};
+        for (const auto& [line_bytes, counts] : use)
+            part.sizes.push_back({WalkLines(layout, line_bytes, walks.photons()), layout.base / line_bytes,
+                                  std::vector<std::uint64_t>(counts.size())});
+        return part;
+    });
+    std::atomic<std::uint64_t> done = 0;
+    tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, walks.queries(), 4096), [&](const auto& range) {
+        Part& part = parts.local();
+        for (std::uint64_t q = range.begin(); q != range.end(); ++q) {
+            const spatial::WalkDecoder::Visits visits = part.decoder.decode(walks.walk(q));
+            if (visits.fault != spatial::WalkFault::none) refuse_walk(q, visits.fault);
+            for (Size& size : part.sizes)
+                for (const Line line : size.lines.first(size.lines.touches(visits.slots)).lines)
+                    ++size.walks[static_cast<std::uint64_t>(line) - size.first_line];
+        }
+        done += range.size();
+        if (progress) progress(done);
+    });
+    for (const Part& part : parts)
+        for (const Size& size : part.sizes) {
+            std::vector<std::uint64_t>& sum = use[size.lines.line_bytes()];
+            for (std::size_t l = 0; l < sum.size(); ++l) sum[l] += size.walks[l];
+        }
+    return use;
+}
+
+void SetSample::check(std::span<const CacheConfig> caches, const Sampling& sampling) {
+    const std::uint64_t one_of = sampling.one_of;
+    if (!std::has_single_bit(one_of) || one_of < 2 || one_of > 1024)
+        throw trace::UsageError(fmt::format("sampling: found 1/{}, expected 1/2, 1/4, ... or 1/1024", one_of));
+    for (const CacheConfig& cache : caches) {
+        cachesim::check(cache);
+        const bool full = cache.ways == cachesim::fully_associative;
+        if (!family_serves(cache) || full || cache.sets() < 2 * one_of)
+            throw trace::UsageError(fmt::format(
+                "sampling: found 1/{} of the sets of a cache of {} bytes in lines of {} with {} ways, expected at least {} "
+                "sets of 1 to 32 ways",
+                one_of, cache.size_bytes, cache.line_bytes, full ? "all" : std::to_string(cache.ways), 2 * one_of));
+    }
+}
+
+SetSample::SetSample(const WalkStore& walks, const HeapLayout& layout, std::span<const CacheConfig> caches,
+                     const Sampling& sampling, const LineUse& use)
+    : walks_(walks), layout_(layout), caches_(caches.begin(), caches.end()) {
+    check(caches, sampling);
+    const std::uint64_t one_of = sampling.one_of;
+    for (const CacheConfig& cache : caches) {
+        auto size = std::find_if(sizes_.begin(), sizes_.end(),
+                                 [&](const LineSize& s) { return s.line_bytes == cache.line_bytes; });
+        if (size == sizes_.end()) {
+            size = sizes_.insert(size, LineSize{});
+            size->line_bytes = cache.line_bytes;
+            size->classes = most_classes_sampled * one_of;
+        }
+        size->classes = std::min(size->classes, cache.sets());
+    }
+    for (LineSize& size : sizes_) {
+        size.family = {.levels = {}, .distances = false, .conflicts = false, .stamps = std::uint64_t{1} << 18};
+        for (const CacheConfig& cache : caches_) {
+            if (cache.line_bytes != size.line_bytes) continue;
+            const std::uint64_t sets = cache.sets() / size.classes;
+            const auto level = std::lower_bound(size.family.levels.begin(), size.family.levels.end(), sets,
+                                                [](const auto& l, std::uint64_t s) { return l.sets < s; });
+            if (level == size.family.levels.end() || level->sets != sets)
+                size.family.levels.insert(level, {sets, cache.ways});
+            else
+                level->ways = std::max(level->ways, cache.ways);
+        }
+        size.sampled.assign(size.classes, unsampled);
+        const std::vector<std::uint64_t> numbers = chosen(size.classes / one_of, size.classes, sampling.seed);
+        for (std::size_t n = 0; n < numbers.size(); ++n) size.sampled[numbers[n]] = static_cast<std::uint16_t>(n);
+        size.touches.resize(numbers.size());
+        const std::vector<std::uint64_t>& by_line = use.at(size.line_bytes);
+        const std::uint64_t first_line = layout.base >> std::countr_zero(size.line_bytes);
+        const double hot = hot_share * static_cast<double>(walks.queries());
+        for (std::size_t l = 0; l < by_line.size(); ++l) {
+            const auto touching = static_cast<double>(by_line[l]);
+            if (touching > hot) continue;
+            size.all_touches += touching;
+            const std::uint16_t number = size.sampled[(first_line + l) % size.classes];
+            if (number != unsampled) size.touches[number] += touching;
+        }
+    }
+}
+
+/// One replay's simulation of the sampled classes of a line size.
+struct SetSample::Run {
+    Run(const LineSize& s, const HeapLayout& layout, std::uint32_t photons)
+        : size(s), lines(layout, s.line_bytes, photons), shift(std::countr_zero(s.classes)), last(s.touches.size(), ~std::uint64_t{0}),
+          waiting(s.touches.size()) {
+        for (std::size_t n = 0; n < s.touches.size(); ++n) classes.emplace_back(s.family);
+    }
+
+    void visit(std::span<const std::uint32_t> slots) {
+        const std::span<const Line> touches = lines.touches(slots);
+        accesses += touches.size();
+        if (found.size() < touches.size()) found.resize(2 * touches.size());
+        const std::uint16_t* const sampled = size.sampled.data();
+        const std::uint64_t mask = size.classes - 1;
+        std::size_t count = 0;
+        for (const Line line : touches) {  // without a branch: few are sampled, and nobody could foretell which
+            found[count] = line;
+            count += sampled[static_cast<std::uint64_t>(line) & mask] != unsampled ? 1 : 0;
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto line = static_cast<std::uint64_t>(found[i]);
+            const std::uint16_t n = sampled[line & mask];
+            if (last[n] == line) continue;  // the newest line of its class hits in every cache and changes nothing
+            last[n] = line;
+            waiting[n].push_back(Line{line >> shift});
+            if (waiting[n].size() == batch) pass(n);
+        }
+    }
+    void pass(std::size_t n) {
+        classes[n].access(waiting[n]);
+        waiting[n].clear();
+    }
+
+    CacheTraffic traffic(const CacheConfig& config) {
+        const std::size_t units = classes.size();
+        const auto n = static_cast<double>(units), all = static_cast<double>(size.classes);
+        std::vector<double> misses(units);
+        for (std::size_t u = 0; u < units; ++u) {
+            pass(u);
+            misses[u] = static_cast<double>(classes[u].counts().misses(config.sets() / size.classes, config.ways));
+        }
+        const double missed = std::accumulate(misses.begin(), misses.end(), 0.0);
+        const double touched = std::accumulate(size.touches.begin(), size.touches.end(), 0.0);
+        // Without a touched line in the sample there is nothing to take a ratio to.
+        const double ratio = touched > 0 ? missed / touched : 0;
+        const double total = touched > 0 ? ratio * size.all_touches : missed / n * all;
+        double squares = 0;
+        for (std::size_t u = 0; u < units; ++u) squares += std::pow(misses[u] - ratio * size.touches[u], 2);
+        const double error = all * std::sqrt((1 - n / all) / n * squares / (n - 1));
+        const double reach = student_quantile_95(units - 1) * error;
+        CacheTraffic result{.config = config, .accesses = accesses, .misses = static_cast<std::uint64_t>(std::llround(total)),
+                            .traffic_bytes = 0, .classes = {}, .error = SampleError{}};
+        result.traffic_bytes = result.misses * config.line_bytes;
+        result.error->sampled_sets = config.sets() / size.classes * units;
+        result.error->standard_error = error;
+        result.error->low = static_cast<std::uint64_t>(std::llround(std::max(missed, total - reach)));
+        result.error->high = static_cast<std::uint64_t>(std::llround(total + reach));
+        return result;
+    }
+
+    static constexpr std::size_t batch = 4096;
+    const LineSize& size;
+    WalkLines lines;
+    int shift;
+    std::uint64_t accesses = 0;
+    std::vector<Line> found;
+    std::vector<std::uint64_t> last;
+    std::vector<std::vector<Line>> waiting;
+    std::vector<cachesim::LruFamily> classes;
+};
+
+Replayed SetSample::replay(std::span<const std::uint32_t> permutation, const QueriesDone& progress) const {
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<Run> runs;
+    runs.reserve(sizes_.size());
+    for (const LineSize& size : sizes_) runs.emplace_back(size, layout_, walks_.photons());
+    Replayed result;
+    result.visited_nodes = run_walks(walks_, permutation, progress, [&](std::span<const std::uint32_t> slots) {
+        for (Run& run : runs) run.visit(slots);
+    });
+    result.raw_bytes = result.visited_nodes * layout_.used_bytes;
+    for (const CacheConfig& cache : caches_)
+        for (Run& run : runs)
+            if (run.size.line_bytes == cache.line_bytes) result.caches.push_back(run.traffic(cache));
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+}
+
+}  // namespace regather::replay

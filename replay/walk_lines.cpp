@@ -1,0 +1,78 @@
+#include "replay/walk_lines.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+namespace regather::replay {
+
+using cachesim::Line;
+
+WalkLines::WalkLines(const HeapLayout& layout, std::uint32_t line_bytes, std::uint32_t photons)
+    : layout_(layout), shift_(std::countr_zero(line_bytes)), first_line_(layout.base >> shift_) {
+    const std::uint64_t end = photons == 0 ? layout.base : layout.address(photons) + layout.used_bytes - 1;
+    entry_.resize((end >> shift_) - first_line_ + 1);
+}
+
+std::span<const Line> WalkLines::touches(std::span<const std::uint32_t> slots) {
+    const std::size_t lines_a_node = (layout_.used_bytes >> shift_) + 2;
+    if (touches_.size() < slots.size() * lines_a_node) touches_.resize(slots.size() * lines_a_node);
+    Line* to = touches_.data();
+    for (const std::uint32_t slot : slots) {
+        const std::uint64_t address = layout_.address(slot);
+        const std::uint64_t first = address >> shift_, last = (address + layout_.used_bytes - 1) >> shift_;
+        *to++ = Line{first};
+        *to = Line{last};  // overwritten when it is the same
+        to += static_cast<int>(last != first);
+        if (last - first > 1) {
+            --to;
+            for (std::uint64_t line = first + 1; line <= last; ++line) *to++ = Line{line};
+        }
+    }
+    return {touches_.data(), to};
+}
+
+WalkLines::First WalkLines::first(std::span<const Line> touches) {
+    const std::size_t words = touches.size() / 64 + 1;
+    if (lines_.size() <= touches.size()) {
+        lines_.resize(2 * touches.size() + 1);
+        last_.resize(2 * touches.size() + 1);
+        is_last_.resize(2 * words + 1);
+        before_.resize(2 * words + 1);
+    }
+    if (base_ > std::numeric_limits<std::uint32_t>::max() - touches.size()) {
+        std::fill(entry_.begin(), entry_.end(), 0);
+        base_ = 1;
+    }
+    std::uint32_t* const entries = entry_.data();
+    Line* const lines = lines_.data();
+    std::uint32_t* const last = last_.data();
+    const std::uint64_t first_line = first_line_;
+    const std::uint32_t base = base_;
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < touches.size(); ++i) {
+        std::uint32_t& entry = entries[static_cast<std::uint64_t>(touches[i]) - first_line];
+        const std::uint32_t met = entry, fresh = met < base ? 1 : 0;
+        const std::uint32_t at = met ^ ((met ^ (base + count)) & (0 - fresh));  // without a branch: nobody could foretell it
+        entry = at;
+        lines[at - base] = touches[i];
+        last[at - base] = static_cast<std::uint32_t>(i);
+        count += fresh;
+    }
+    base_ += count;
+
+    std::fill_n(is_last_.data(), words, 0);
+    for (std::uint32_t i = 0; i < count; ++i) is_last_[last[i] / 64] |= std::uint64_t{1} << (last[i] % 64);
+    std::uint32_t sum = 0;
+    for (std::size_t w = 0; w < words; ++w) {
+        before_[w] = sum;
+        sum += static_cast<std::uint32_t>(std::popcount(is_last_[w]));
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t word = last[i] / 64, bit = last[i] % 64;
+        last[i] = before_[word] + static_cast<std::uint32_t>(std::popcount(is_last_[word] & ((std::uint64_t{1} << bit) - 1)));
+    }
+    return {{lines, count}, {last, count}};
+}
+
+}  // namespace regather::replay

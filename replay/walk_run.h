@@ -1,0 +1,39 @@
+// replay/walk_run.h -- goes through walks in an order: decodes each, with what comes next on its way into the cache.
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "replay/replay.h"
+#include "replay/walk_store.h"
+#include "spatial/walk.h"
+
+namespace regather::replay {
+
+/// Throws trace::DataError that names the query whose walk does not fit its tree.
+[[noreturn]] void refuse_walk(std::uint64_t query, spatial::WalkFault fault);
+
+/// Calls visit(slots) for the walk of each query of `permutation`. Returns the number of visited nodes.
+template <class Visit>
+std::uint64_t run_walks(const WalkStore& walks, std::span<const std::uint32_t> permutation, const QueriesDone& progress,
+                        Visit&& visit) {
+    constexpr std::uint64_t prefetch_table = 32, prefetch_walk = 12, progress_queries = 1 << 16;
+    spatial::WalkDecoder decoder(walks.photons());
+    std::uint64_t visited = 0;
+    for (std::uint64_t r = 0; r < permutation.size(); ++r) {
+        if (r + prefetch_table < permutation.size()) walks.prefetch(permutation[r + prefetch_table]);
+        if (r + prefetch_walk < permutation.size()) {
+            const std::span<const std::uint8_t> ahead = walks.walk(permutation[r + prefetch_walk]);
+            __builtin_prefetch(ahead.data());
+            __builtin_prefetch(ahead.data() + ahead.size());
+        }
+        const auto [fault, slots] = decoder.decode(walks.walk(permutation[r]));
+        if (fault != spatial::WalkFault::none) refuse_walk(permutation[r], fault);
+        visited += slots.size();
+        visit(slots);
+        if (progress && (r + 1) % progress_queries == 0) progress(r + 1);
+    }
+    if (progress) progress(permutation.size());
+    return visited;
+}
+
+}  // namespace regather::replay

@@ -1,0 +1,187 @@
+#include "cachesim/lru_family.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <list>
+#include <map>
+#include <set>
+
+#include "tests/cachesim/brute_force.h"
+#include "trace/error.h"
+
+namespace regather::cachesim {
+namespace {
+
+using testing::ElementsAre;
+
+constexpr std::uint32_t line_bytes = 64;
+
+/// Misses by definition, and Hill's classes: each cache simulated for itself, the fully associative one beside it.
+struct BruteForce {
+    std::uint64_t misses = 0, conflicts = 0;
+};
+BruteForce brute_force(std::span<const Line> lines, std::uint64_t sets, std::uint32_t ways,
+                       const std::vector<bool>& counted = {}) {
+    BruteForceLru cache({sets * ways * line_bytes, line_bytes, ways});
+    BruteForceLru full({sets * ways * line_bytes, line_bytes, fully_associative});
+    BruteForce result;
+    std::uint64_t cache_misses = 0, full_misses = 0;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        cache.access(lines[i], trace::Region::other, Access::read);
+        full.access(lines[i], trace::Region::other, Access::read);
+        const bool missed = cache.stats[2].misses != cache_misses, full_missed = full.stats[2].misses != full_misses;
+        cache_misses = cache.stats[2].misses;
+        full_misses = full.stats[2].misses;
+        if (!counted.empty() && !counted[i]) continue;
+        result.misses += missed ? 1 : 0;
+        result.conflicts += missed && !full_missed ? 1 : 0;
+    }
+    return result;
+}
+
+const std::vector<FamilyLevel> levels{{1, 16}, {2, 32}, {4, 3}, {8, 8}, {16, 1}, {64, 4}, {256, 2}, {1024, 4}};
+
+std::vector<Line> some_lines(std::uint64_t universe, std::uint64_t base) {
+    const auto numbers = *rc::gen::container<std::vector<std::uint32_t>>(rc::gen::inRange<std::uint32_t>(0, 1u << 30));
+    std::vector<Line> lines;
+    for (const std::uint32_t number : numbers) lines.push_back(Line{base + number % universe});
+    return lines;
+}
+
+void expect_brute_force(FamilyCounts counts, std::span<const Line> lines) {
+    RC_ASSERT(counts.accesses == lines.size());
+    RC_ASSERT(counts.compulsory == std::set<Line>(lines.begin(), lines.end()).size());
+    for (const FamilyLevel& level : levels)
+        for (std::uint32_t ways = 1; ways <= level.ways; ++ways) {
+            const BruteForce expected = brute_force(lines, level.sets, ways);
+            RC_ASSERT(counts.misses(level.sets, ways) == expected.misses);
+            RC_ASSERT(counts.conflicts(level.sets, ways) == expected.conflicts);
+        }
+    for (std::uint64_t size = 1; size < 70; ++size)
+        RC_ASSERT(counts.full_misses(size) == brute_force(lines, 1, static_cast<std::uint32_t>(size)).misses);
+}
+
+TEST(LruFamily, CountsWhatEachCacheAloneCounts) {
+    ASSERT_TRUE(rc::check("low and high line numbers, few and many lines", [] {
+        const auto universe = *rc::gen::element<std::uint64_t>(3, 12, 40, 300, 3000);
+        const auto base = *rc::gen::element<std::uint64_t>(0, (1u << 24) - 5, std::uint64_t{1} << 57);
+        const std::vector<Line> lines = some_lines(universe, base);
+        LruFamily family({.levels = levels});
+        family.access(lines);
+        expect_brute_force(family.counts(), lines);
+    }));
+}
+
+// 2 sets, even lines in the first:
+//        set 0      set 1      fully associative (newest first)
+// 0 m    0          -          0
+// 1 m    0          1          1 0
+// 2 m    2 0        1          2 1 0
+// 0 h1   0 2        1          0 2 1      distance 2
+// 4 m    4 0 2      1          4 0 2 1
+// 2 h2   2 4 0      1          2 4 0 1    distance 2
+// 1 h0   2 4 0      1          1 2 4 0    distance 3
+TEST(LruFamily, DepthsOfSetsDrawnByHand) {
+    LruFamily family({.levels = {{2, 4}}});
+    for (const std::uint64_t line : {0, 1, 2, 0, 4, 2, 1}) family.access(std::vector<Line>{Line{line}});
+    const FamilyCounts counts = family.counts();
+    EXPECT_EQ(counts.compulsory, 4u);
+    EXPECT_THAT(counts.by_distance, ElementsAre(0, 0, 2, 1));
+    // 1 way: only the last access hits. 2 ways: the 0 at depth 1 too. 3 ways: the 2 as well.
+    EXPECT_THAT(counts.levels[0].misses, ElementsAre(6, 5, 4, 4));
+    // A conflict misses its set but not a full cache of 2 w lines: 2 lines would miss all; 4 lines keep all three, of which
+    // two ways lose the 2; from 6 lines on the sets keep all.
+    EXPECT_THAT(counts.levels[0].conflicts, ElementsAre(0, 1, 0, 0));
+}
+
+/// Walks over few lines, so that they meet again and again.
+std::vector<std::vector<Line>> some_walks() {
+    const auto numbers = *rc::gen::container<std::vector<std::vector<std::uint8_t>>>(rc::gen::arbitrary<std::vector<std::uint8_t>>());
+    std::vector<std::vector<Line>> walks;
+    for (const auto& walk : numbers) {
+        walks.emplace_back();
+        for (const std::uint8_t line : walk) walks.back().push_back(Line{line % 4u * 256 + line % 31u});
+    }
+    return walks;
+}
+
+void access_first(LruFamily& family, const std::vector<Line>& walk) {
+    std::vector<Line> first;
+    for (const Line line : walk)
+        if (std::find(first.begin(), first.end(), line) == first.end()) first.push_back(line);
+    std::vector<Line> last;
+    for (auto line = walk.rbegin(); line != walk.rend(); ++line)
+        if (std::find(last.begin(), last.end(), *line) == last.end()) last.insert(last.begin(), *line);
+    std::vector<std::uint32_t> rank;
+    for (const Line line : first)
+        rank.push_back(static_cast<std::uint32_t>(std::find(last.begin(), last.end(), line) - last.begin()));
+    family.access_first(first, rank);
+}
+
+TEST(LruFamily, FirstTouchesAndRevisitsOfWalksMakeUpTheStream) {
+    ASSERT_TRUE(rc::check("in any order of the walks, revisits counted in capture order", [] {
+        const auto walks = some_walks();
+        LruFamily again({.levels = levels});
+        for (const auto& walk : walks) again.revisit(walk);
+        std::vector<std::size_t> order(walks.size());
+        for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+        const auto shift = *rc::gen::inRange<std::size_t>(0, 100);
+        std::rotate(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(order.empty() ? 0 : shift % order.size()),
+                    order.end());
+
+        LruFamily first({.levels = levels});
+        std::vector<Line> stream;
+        for (const std::size_t i : order) {
+            access_first(first, walks[i]);
+            stream.insert(stream.end(), walks[i].begin(), walks[i].end());
+        }
+        FamilyCounts sum = again.counts();
+        RC_ASSERT(sum.compulsory == 0u);
+        sum += first.counts();
+        expect_brute_force(sum, stream);
+    }));
+}
+
+TEST(LruFamily, NumbersItsStampsAnewWithoutATrace) {
+    // 2^16 stamps are the fewest: 200,000 accesses to 20,000 lines use them up several times, and 50,000 lines make more.
+    Scatter scatter(7);
+    std::vector<Line> lines;
+    for (int i = 0; i < 200'000; ++i) lines.push_back(Line{scatter.below(i < 120'000 ? 20'000 : 50'000)});
+    LruFamily few({.levels = levels, .stamps = 1}), many({.levels = levels, .stamps = std::uint64_t{1} << 20});
+    for (std::size_t i = 0; i < lines.size(); i += 1000) few.access(std::span(lines).subspan(i, 1000));
+    many.access(lines);
+    EXPECT_EQ(few.counts(), many.counts());
+    LruCache cache({.size_bytes = 64 * 4 * line_bytes, .line_bytes = line_bytes, .ways = 4});
+    cache.access(lines, trace::Region::other);
+    EXPECT_EQ(few.counts().misses(64, 4), cache.total().misses);
+    LruCache full({.size_bytes = 8192 * line_bytes, .line_bytes = line_bytes, .ways = fully_associative});
+    full.access(lines, trace::Region::other);
+    EXPECT_EQ(few.counts().full_misses(8192), full.total().misses);
+}
+
+TEST(LruFamily, MoreWaysNeverMissMoreAndTheClassesAddUp) {
+    Scatter scatter(3);
+    std::vector<Line> lines;
+    for (int i = 0; i < 50'000; ++i) lines.push_back(Line{scatter.below(10) * scatter.below(90)});
+    LruFamily family({.levels = levels});
+    family.access(lines);
+    const FamilyCounts& counts = family.counts();
+    for (const FamilyCounts::Level& level : counts.levels)
+        for (std::size_t w = 0; w < level.misses.size(); ++w) {
+            EXPECT_LE(level.misses[w], level.misses[w == 0 ? 0 : w - 1]);
+            EXPECT_GE(level.misses[w], counts.compulsory + level.conflicts[w]);
+        }
+}
+
+TEST(LruFamily, RefusesImpossibleLevels) {
+    EXPECT_THROW(LruFamily({.levels = {{3, 1}}}), trace::UsageError);
+    EXPECT_THROW(LruFamily({.levels = {{0, 1}}}), trace::UsageError);
+    EXPECT_THROW(LruFamily({.levels = {{2, 0}}}), trace::UsageError);
+    EXPECT_THROW(LruFamily({.levels = {{2, 33}}}), trace::UsageError);
+}
+
+}  // namespace
+}  // namespace regather::cachesim
