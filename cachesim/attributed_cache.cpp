@@ -44,7 +44,8 @@ void AttributedCache::access(const ByteAccess& bytes, std::uint32_t by) {
         const auto line = static_cast<std::uint64_t>(touched);
         const std::uint32_t first =
             line == bytes.address >> shift_ ? static_cast<std::uint32_t>(bytes.address) & last_byte : 0;
-        const std::uint32_t last = line == end >> shift_ ? static_cast<std::uint32_t>(end) & last_byte : last_byte;
+        const std::uint32_t last =
+            line == end >> shift_ ? static_cast<std::uint32_t>(end) & last_byte : last_byte;
         access_line(line, first, last, bytes.kind, by);
     });
 }
@@ -62,7 +63,9 @@ void AttributedCache::access_line(std::uint64_t line, std::uint32_t first, std::
         slot = slot_of_[id];
         if (slot == none) {
             ++mine.misses;
-            ++(missing == FullLru::first_touch ? mine.compulsory : missing > 0 ? mine.capacity : mine.conflict);
+            ++(missing == FullLru::first_touch ? mine.compulsory
+               : missing > 0                   ? mine.capacity
+                                               : mine.conflict);
             slot = fetch(id, set, by);
         } else if (slot != set.newest) {
             leave(set, slot);

@@ -1,7 +1,8 @@
-// cachesim/attributed_cache.h -- an exact LRU cache that says who missed, why, and what the fetched bytes were
-// good for. Accesses are byte ranges and belong to a class, a small number that means whatever the caller wants.
-// Write-back, write-allocate, as LruCache and with the same counts, but slower: misses are classified one by one
-// (miss_class.h), and every line held knows which of its bytes were accessed since it was fetched.
+// cachesim/attributed_cache.h -- an exact LRU cache that says who missed, why, and what the fetched bytes
+// were good for. Accesses are byte ranges and belong to a class, a small number that means whatever the
+// caller wants. Write-back, write-allocate, as LruCache and with the same counts, but slower: misses are
+// classified one by one (miss_class.h), and every line held knows which of its bytes were accessed since it
+// was fetched.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -15,12 +16,12 @@
 namespace regather::cachesim {
 
 struct ClassStats {
-    std::uint64_t accesses = 0;    ///< Line accesses.
-    std::uint64_t misses = 0;      ///< Lines fetched; the sum of the next three.
+    std::uint64_t accesses = 0;  ///< Line accesses.
+    std::uint64_t misses = 0;    ///< Lines fetched; the sum of the next three.
     std::uint64_t compulsory = 0, capacity = 0, conflict = 0;
     std::uint64_t writebacks = 0;  ///< Dirty lines evicted, charged to the class that wrote them last.
-    /// Bytes of the lines that this class fetched which any class accessed before they were evicted; a line that
-    /// is fetched again counts again.
+    /// Bytes of the lines that this class fetched which any class accessed before they were evicted; a line
+    /// that is fetched again counts again.
     std::uint64_t used_bytes = 0;
 
     ClassStats& operator+=(const ClassStats& other);
@@ -35,8 +36,8 @@ public:
 
     /// One access of every line that the bytes lie on, ascending.
     void access(const ByteAccess& bytes, std::uint32_t by);
-    /// Evicts everything, so that dirty lines are counted as written back and the bytes of those held as used. The
-    /// last call.
+    /// Evicts everything, so that dirty lines are counted as written back and the bytes of those held as
+    /// used. The last call.
     void flush();
 
     const CacheConfig& config() const { return config_; }
@@ -58,7 +59,8 @@ private:
         std::uint32_t newest = none, oldest = none, used = 0;
     };
 
-    void access_line(std::uint64_t line, std::uint32_t first, std::uint32_t last, Access kind, std::uint32_t by);
+    void access_line(std::uint64_t line, std::uint32_t first, std::uint32_t last, Access kind,
+                     std::uint32_t by);
     std::uint32_t fetch(std::uint32_t id, Set& set, std::uint32_t by);
     void enter(Set& set, std::uint32_t slot);
     void leave(Set& set, std::uint32_t slot);

@@ -190,7 +190,9 @@ public:
             (level.sets < filtered_from ? all_ : filtered_).add(level, counts_);
             if (level.sets >= filtered_from) fewest = std::min(fewest, level.sets);
         }
-        if (!filtered_.empty()) newest_.resize(fewest);
+        if (filtered_.empty()) return;
+        newest_.resize(fewest);
+        for (std::uint64_t set = 0; set < fewest; ++set) newest_[set].line = Line{set ^ 1};  // of another set: none yet
     }
 
     void access(std::span<const Line> lines) {
@@ -247,7 +249,7 @@ private:
 
     /// The newest line of a set, counted for the level of the fewest sets that are filtered.
     struct Newest {
-        Line line{~std::uint64_t{0}};
+        Line line{};
         std::uint64_t walk = 0;  // in which it was touched last
         std::int32_t now = 0;    // the stamp that it then should have ...
         bool left_out = false;   // ... and has not got

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "cachesim/address_trace.h"
+#include "cachesim/family_sweep.h"
 #include "cachesim/policy_sweep.h"
 #include "cli/commands.h"
 #include "cli/machine.h"
@@ -32,7 +33,7 @@ struct Options {
     std::string sizes, lines, ways, policies = "lru", machines;
     std::string write = "back", write_miss = "allocate", index = "modulo";
     std::uint64_t seed = 0;
-    bool no_3c = false;
+    bool all_lru = false, no_3c = false;
     std::uint64_t opt_limit = cachesim::PolicySweepOptions{}.opt_limit;
     std::filesystem::path csv;
     bool force = false;
@@ -90,10 +91,12 @@ std::vector<cachesim::PolicyConfig> combinations(const Options& options) {
     return configs;
 }
 
+constexpr std::string_view header =
+    "policy,size_bytes,line_bytes,ways,accesses,hits,misses,compulsory,capacity,conflict,writebacks,"
+    "writes_through,traffic_bytes\n";
+
 std::string table(std::span<const cachesim::PolicyRow> results) {
-    std::string rows =
-        "policy,size_bytes,line_bytes,ways,accesses,hits,misses,compulsory,capacity,conflict,writebacks,"
-        "writes_through,traffic_bytes\n";
+    std::string rows(header);
     for (const auto& [config, stats, classes] : results) {
         const auto& [size_bytes, line_bytes, ways] = config.geometry;
         rows += fmt::format(
@@ -105,6 +108,41 @@ std::string table(std::span<const cachesim::PolicyRow> results) {
             stats.writebacks, stats.passed_writes, stats.traffic_bytes(line_bytes));
     }
     return rows;
+}
+
+/// Every LRU cache of the line sizes. What a trace with writes writes back is not told.
+std::string all_lru(const Options& options) {
+    std::vector<std::uint32_t> line_sizes;
+    if (options.lines.empty()) throw trace::UsageError("--line: found none, expected one");
+    for (const std::string_view line : split(options.lines)) line_sizes.push_back(parse_line(line));
+    std::string_view ways = options.ways.empty() ? "16" : std::string_view(options.ways);
+    const std::uint32_t most_ways = parse_ways(ways);
+    if (most_ways == cachesim::fully_associative || most_ways > 32)
+        throw trace::UsageError(fmt::format("--ways: found '{}' beside --all-lru, expected the most ways, 1 to 32", ways));
+
+    cachesim::AddressTrace trace(options.files);
+    cachesim::FamilySweep sweep(line_sizes, most_ways, !options.no_3c);
+    bool writes = false;
+    {
+        Progress progress;
+        for (auto records = trace.next(); !records.empty(); records = trace.next()) {
+            sweep.access(records);
+            for (const cachesim::ByteAccess& access : records) writes = writes || access.kind == cachesim::Access::write;
+            const auto [done, total, unit] = trace.position();
+            if (total != 0) progress.update("cachesim: all lru", unit, done, total);
+        }
+    }
+    std::string text(header);
+    for (const cachesim::FamilyRow& row : sweep.rows()) {
+        const auto& [size_bytes, line_bytes, row_ways] = row.config;
+        text += fmt::format(
+            "lru,{},{},{},{},{},{},{},{}\n", size_bytes, line_bytes,
+            row_ways == cachesim::fully_associative ? "full" : fmt::format("{}", row_ways), row.accesses,
+            row.accesses - row.misses, row.misses,
+            options.no_3c ? ",," : fmt::format("{},{},{}", row.compulsory, row.capacity, row.conflict),
+            writes ? ",," : fmt::format("0,0,{}", row.misses * line_bytes));
+    }
+    return text;
 }
 
 std::vector<cachesim::PolicyRow> simulate(const Options& options,
@@ -130,16 +168,17 @@ void write_all(std::FILE* file, std::string_view text, const std::string& name) 
 void run(const Options& options) {
     std::vector<cachesim::Machine> machines;
     std::vector<cachesim::PolicyConfig> configs;
-    if (options.machines.empty())
-        configs = combinations(options);
-    else
+    if (!options.machines.empty())
         machines = load_machines(options.machines);
+    else if (!options.all_lru)
+        configs = combinations(options);
     if (!options.csv.empty() && !options.force && std::filesystem::exists(options.csv))
         throw trace::UsageError(fmt::format("--csv {}: found a file, expected none (--force overwrites it)",
                                             options.csv.string()));
 
-    const std::string rows =
-        machines.empty() ? table(simulate(options, configs)) : run_machines(machines, options.files);
+    const std::string rows = !machines.empty()   ? run_machines(machines, options.files)
+                             : options.all_lru ? all_lru(options)
+                                               : table(simulate(options, configs));
     if (options.csv.empty())
         write_all(stdout, rows, "stdout");
     else
@@ -181,6 +220,11 @@ void add_cachesim(CLI::App& app) {
         ->add_option("--index", options->index,
                      "Set of a line: modulo, or hashed (all bits of its number, XORed)")
         ->capture_default_str();
+    command
+        ->add_flag("--all-lru", options->all_lru,
+                   "In place of --size: every LRU cache of the lines, 1 to 65536 sets of 1 to 16 (or --ways, up to 32) "
+                   "ways, and fully associative ones, all from one pass")
+        ->excludes(sizes);
     command->add_option("--seed", options->seed, "Of the policy random")->capture_default_str();
     command->add_flag("--no-3c", options->no_3c,
                       "Leave compulsory, capacity and conflict empty: lru is several times faster");

@@ -88,8 +88,8 @@ Experiment load_experiment(const std::filesystem::path& path) {
     } catch (const json::exception& error) {
         throw trace::DataError(fmt::format("{}: found no valid JSON ({})", path.string(), error.what()));
     }
-    static constexpr std::array<std::string_view, 8> keys{"scene",  "capture", "orderings", "caches",
-                                                          "onchip", "classes", "sample",    "sample_seed"};
+    static constexpr std::array<std::string_view, 9> keys{"scene",   "capture", "orderings", "caches",     "onchip",
+                                                          "classes", "buffers", "sample",    "sample_seed"};
     const Object in(root, keys, path.string(), "");
     Experiment experiment;
     experiment.scene = in.text("scene");
@@ -108,8 +108,10 @@ Experiment load_experiment(const std::filesystem::path& path) {
         in.has("caches") ? listed_caches(in) : std::vector<cachesim::CacheConfig>{cachesim::CacheConfig{}};
 
     experiment.method.classes = in.flag("classes", false);
+    experiment.method.buffers = in.flag("buffers", false);
     if (const std::uint64_t one_of = in.number("sample", 1, 1, 1024); one_of != 1) {
-        if (experiment.method.classes) in.refuse("classes", "true beside \"sample\"", "one of them");
+        for (const auto& [key, asked] : {std::pair{"classes", experiment.method.classes}, {"buffers", experiment.method.buffers}})
+            if (asked) in.refuse(key, "true beside \"sample\"", "one of them");
         experiment.method.sampling = replay::Sampling{static_cast<std::uint32_t>(one_of),
                                                       in.number("sample_seed", 1, 0, ~std::uint64_t{0})};
     }

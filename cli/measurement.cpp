@@ -5,6 +5,8 @@
 #include <charconv>
 
 #include "cli/size.h"
+#include "replay/buffered.h"
+#include "replay/levels.h"
 #include "trace/error.h"
 
 namespace regather::cli {
@@ -104,11 +106,24 @@ replay::Replayed Measurement::replayed(std::span<const std::uint32_t> permutatio
     return replay::replay(walks_, layout_, permutation, {{caches.begin(), caches.end()}, method_.classes}, revisits_, progress);
 }
 
-std::vector<results::Row> Measurement::rows(const reorder::OrderingSpec& spec, const reorder::Ordered& ordered,
+void Measurement::through(const reorder::Ordered& ordered, std::span<cachesim::Hierarchy> systems,
+                          const std::function<void(std::uint64_t)>& progress) const {
+    replay::replay_levels(walks_, layout_, ordered.permutation, systems, progress);
+    for (cachesim::Hierarchy& system : systems) system.flush();
+}
+
+std::vector<results::Row> Measurement::rows(const reorder::ParsedOrdering& parsed, const reorder::Ordered& ordered,
                                             std::span<const cachesim::CacheConfig> caches,
                                             const std::function<void(std::uint64_t)>& progress) const {
     const replay::Replayed replayed = this->replayed(ordered.permutation, caches, progress);
+    const reorder::OrderingSpec& spec = parsed.spec;
     const reorder::Cost& cost = ordered.cost;
+    std::vector<replay::BufferedTraffic> buffered;
+    if (method_.buffers) {
+        const reorder::BufferUse use = buffer_use(*parsed.ordering, ordered);
+        if (use.known && !use.empty())
+            buffered = replay::replay_with_buffers(walks_, layout_, ordered.permutation, use, caches, progress);
+    }
     std::vector<results::Row> rows;
     for (const replay::CacheTraffic& traffic : replayed.caches) {
         results::Row row;
@@ -144,6 +159,12 @@ std::vector<results::Row> Measurement::rows(const reorder::OrderingSpec& spec, c
             row.misses_high = traffic.error->high;
         }
         row.onchip_bytes = onchip_bytes_;
+        if (!buffered.empty()) {
+            const replay::BufferedTraffic& both = buffered[rows.size()];
+            row.buffer_traffic_bytes = both.photon_bytes + both.buffer_bytes - traffic.traffic_bytes;
+        } else if (method_.buffers && cost.reorder_bytes == 0) {
+            row.buffer_traffic_bytes = 0;
+        }
         row.keys = cost.keys;
         row.key_ops = cost.key_ops;
         row.sort_passes = cost.sort_passes;

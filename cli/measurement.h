@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cachesim/cache.h"
+#include "cachesim/hierarchy.h"
 #include "reorder/catalogue.h"
 #include "replay/replay.h"
 #include "replay/set_sample.h"
@@ -24,6 +25,7 @@ std::string cache_text(const cachesim::CacheConfig& cache);  ///< "131072:128:8"
 /// How caches are measured.
 struct Method {
     bool classes = false;                      ///< Misses by Hill's classes, too.
+    bool buffers = false;                      ///< What the orderings' buffers add to the traffic, too: a pass for each cache.
     std::optional<replay::Sampling> sampling;  ///< Some of the sets; all when there is none.
 };
 
@@ -51,9 +53,12 @@ public:
     void prepare(const replay::Revisits& revisits, const Method& method);
 
     /// A row for each cache, in their order, all of them prepared. Any number of threads may call.
-    std::vector<results::Row> rows(const reorder::OrderingSpec& spec, const reorder::Ordered& ordered,
+    std::vector<results::Row> rows(const reorder::ParsedOrdering& parsed, const reorder::Ordered& ordered,
                                    std::span<const cachesim::CacheConfig> caches,
                                    const std::function<void(std::uint64_t)>& progress) const;
+    /// One of the orders through each memory system, from empty to flushed.
+    void through(const reorder::Ordered& ordered, std::span<cachesim::Hierarchy> systems,
+                 const std::function<void(std::uint64_t)>& progress) const;
     /// Finds the compulsory traffic for the line sizes; rows() then tells it. Walks the whole trace once.
     void find_compulsory(std::span<const std::uint32_t> line_sizes);
     std::map<std::uint32_t, std::uint64_t> compulsory_bytes;  ///< By line size.

@@ -33,20 +33,6 @@ struct Options {
     bool gathered = false, force = false;
 };
 
-/// The provenance beside the CSV counts, too: somebody's X.json is not ours to replace.
-void refuse_to_overwrite(const std::filesystem::path& csv, bool force) {
-    const std::filesystem::path json = results::provenance_path(csv);
-    if (json == csv)
-        throw trace::UsageError(
-            fmt::format("--csv: found {}, expected another ending than .json, which the provenance "
-                        "beside it bears",
-                        csv.string()));
-    if (force) return;
-    for (const std::filesystem::path& file : {csv, json})
-        if (std::filesystem::exists(file))
-            throw trace::UsageError(fmt::format("{}: exists; --force overwrites it", file.string()));
-}
-
 std::vector<Structure> parse_structures(const std::vector<std::string>& words) {
     std::vector<Structure> parsed;
     for (const std::string& word : words) {
@@ -145,7 +131,7 @@ std::string table_text(const Result& result) {
 }
 
 void race(const Options& options) {
-    if (!options.csv.empty()) refuse_to_overwrite(options.csv, options.force);
+    if (!options.csv.empty()) results::refuse_to_overwrite(options.csv, options.force);
     std::vector<reorder::ParsedOrdering> orderings;
     reorder::Reads reads;
     for (const std::string& spec : options.orders) {

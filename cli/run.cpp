@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 std::string method_text(const Method& method) {
     if (method.sampling) return fmt::format("1/{} seed {}", method.sampling->one_of, method.sampling->seed);
-    return method.classes ? "classes" : "exact";
+    return fmt::format("exact{}{}", method.classes ? " classes" : "", method.buffers ? " buffers" : "");
 }
 
 /// The rows of one trial, as a file that bears a digest of all that they depend on: the code, too.
@@ -89,7 +89,11 @@ void prepare(Measurement& measurement, const fs::path& folder, const Experiment&
         }
     const fs::path path = folder / "parts" / fmt::format("revisits-{:016x}.json", XXH3_64bits(key.data(), key.size()));
     if (!experiment.method.sampling && fs::exists(path)) {
-        measurement.prepare(read_revisits(path), experiment.method);
+        const replay::Revisits revisits = read_revisits(path);
+        if (!replay::serve(revisits, {caches, experiment.method.classes}))
+            throw trace::DataError(fmt::format("{}: found counts of other caches, expected those of this experiment; delete it",
+                                               path.string()));
+        measurement.prepare(revisits, experiment.method);
         return;
     }
     Progress progress;
@@ -127,7 +131,7 @@ void replay_missing(const Measurement& measurement, const Experiment& experiment
                 const std::size_t t = missing[first + i];
                 const Trial& trial = experiment.trials[t];
                 std::uint64_t before = 0;
-                const auto rows = measurement.rows(trial.ordering.spec, ordered[i], trial.caches, [&](std::uint64_t now) {
+                const auto rows = measurement.rows(trial.ordering, ordered[i], trial.caches, [&](std::uint64_t now) {
                     const std::uint64_t all = done += now - before;
                     before = now;
                     progress.update(fmt::format("replaying {} orderings", missing.size()), "queries", all, total);

@@ -13,7 +13,6 @@
 #include "results/accuracy.h"
 #include "results/csv.h"
 #include "results/provenance.h"
-#include "trace/error.h"
 
 namespace regather::cli {
 namespace {
@@ -27,8 +26,7 @@ struct Options {
 };
 
 void run(const Options& options) {
-    if (!options.csv.empty() && std::filesystem::exists(options.csv) && !options.force)
-        throw trace::UsageError(fmt::format("{}: exists; --force overwrites it", options.csv.string()));
+    if (!options.csv.empty()) results::refuse_to_overwrite(options.csv, options.force);
     std::vector<reorder::ParsedOrdering> orderings;
     reorder::Reads reads;
     for (const std::string& spec : options.orders) {
@@ -48,7 +46,7 @@ void run(const Options& options) {
         progress.update("counting what no order changes", "queries", done, exact.queries());
     };
     exact.prepare(caches, {}, shared);
-    sampled.prepare(caches, {false, replay::Sampling{options.rates.front(), 1}}, shared);
+    sampled.prepare(caches, {.sampling = replay::Sampling{options.rates.front(), 1}}, shared);
 
     std::vector<results::SamplingRow> rows;
     for (const reorder::ParsedOrdering& parsed : orderings) {
@@ -58,11 +56,11 @@ void run(const Options& options) {
                 progress.update(text, "queries", done, exact.queries());
             };
         };
-        const auto truth = exact.rows(parsed.spec, ordered, caches, replaying(""));
+        const auto truth = exact.rows(parsed, ordered, caches, replaying(""));
         for (const std::uint32_t rate : options.rates)
             for (std::uint64_t seed = 1; seed <= options.seeds; ++seed) {
                 sampled.sample({rate, seed});
-                const auto found = sampled.rows(parsed.spec, ordered, caches, replaying(fmt::format(", 1/{}", rate)));
+                const auto found = sampled.rows(parsed, ordered, caches, replaying(fmt::format(", 1/{}", rate)));
                 for (std::size_t c = 0; c < caches.size(); ++c) {
                     const results::Row &row = found[c], &exactly = truth[c];
                     rows.push_back({.scene = row.scene, .ordering = row.ordering, .parameters = row.parameters,

@@ -1,6 +1,6 @@
-// reorder/buffer_use.h -- what an ordering's buffers do in memory when the chip cannot hold them: the bytes that
-// Cost::reorder_bytes counts, with enough to say when each is written and read. The paper, sections 6.3.1 and
-// 6.3.2. Values without addresses; replay/buffer_stream.h places and plays them.
+// reorder/buffer_use.h -- what an ordering's buffers do in memory when the chip cannot hold them: the bytes
+// that Cost::reorder_bytes counts, with enough to say when each is written and read. The paper,
+// sections 6.3.1 and 6.3.2. Values without addresses; replay/buffer_stream.h places and plays them.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -17,10 +17,11 @@ struct SortedBatches {
     std::vector<std::uint64_t> ends;  ///< Of the batches, in the permutation; the last one is all queries.
 };
 
-/// Queries are made one after the other and put into bounded first-in first-out buckets, until the one needed is
-/// full; the permutation is the order in which they are taken out.
+/// Queries are made one after the other and put into bounded first-in first-out buckets, until the one needed
+/// is full; the permutation is the order in which they are taken out.
 struct BoundedBuckets {
-    std::uint64_t record_bytes = 0;  ///< 0: the buckets are on the chip, but what is made when depends on them.
+    std::uint64_t record_bytes =
+        0;  ///< 0: the buckets are on the chip, but what is made when depends on them.
     std::uint32_t buckets = 1, capacity = 1;
     std::vector<std::uint32_t> bucket;  ///< By query.
     std::vector<std::uint32_t> made;    ///< made[m] is made m-th; empty: in capture order.
@@ -51,7 +52,9 @@ struct BufferUse {
     bool empty() const { return !batches && !buckets && !state; }
 
     std::uint64_t written_bytes() const { return record_bytes() + pixel_bytes(); }
-    std::uint64_t read_bytes() const { return record_bytes() + (state ? pixel_bytes() * (state->passes - 1) : 0); }
+    std::uint64_t read_bytes() const {
+        return record_bytes() + (state ? pixel_bytes() * (state->passes - 1) : 0);
+    }
 
 private:
     /// Records are read as often as they are written.

@@ -18,7 +18,9 @@ std::uint64_t aligned(std::uint64_t bytes) {
 }
 
 void require(bool fits, const char* what) {
-    if (!fits) throw std::invalid_argument(std::string("buffer use: found other ") + what + " than the permutation's");
+    if (!fits)
+        throw std::invalid_argument(std::string("buffer use: found other ") + what +
+                                    " than the permutation's");
 }
 
 /// Where a pixel is in its tile, and how large that is; in the clipped tiles at the edges, too.
@@ -40,7 +42,8 @@ struct TileShape {
 };
 
 std::uint64_t tiles_of(const reorder::PixelPasses& state) {
-    return std::uint64_t{(state.image_width - 1) / state.tile + 1} * ((state.image_height - 1) / state.tile + 1);
+    return std::uint64_t{(state.image_width - 1) / state.tile + 1} *
+           ((state.image_height - 1) / state.tile + 1);
 }
 
 }  // namespace
@@ -82,8 +85,8 @@ BufferStream::BufferStream(const reorder::BufferUse& use, std::span<const std::u
 void BufferStream::before(std::uint64_t r, const Sink& sink) {
     if (use_.batches) {
         if (r == batch_begin_) distribute(batch_begin_, use_.batches->ends[batch_], sink);
-        touch(batch_place((use_.batches->rounds - 1) % 2, r - batch_begin_), use_.batches->record_bytes, Access::read,
-              sink);
+        touch(batch_place((use_.batches->rounds - 1) % 2, r - batch_begin_), use_.batches->record_bytes,
+              Access::read, sink);
         if (r + 1 == use_.batches->ends[batch_]) {
             ++batch_;
             batch_begin_ = r + 1;
@@ -110,7 +113,8 @@ void BufferStream::finish(const Sink& sink) {
 /// Writes the records of a batch into memory, and through it as often as there are rounds.
 void BufferStream::distribute(std::uint64_t begin, std::uint64_t end, const Sink& sink) {
     const std::uint64_t bytes = use_.batches->record_bytes;
-    // By place: the rank in the sorted batch of the record that is there; at first the places are those of the capture.
+    // By place: the rank in the sorted batch of the record that is there; at first the places are those of
+    // the capture.
     const std::vector<std::uint64_t> captured(permutation_.begin() + static_cast<std::ptrdiff_t>(begin),
                                               permutation_.begin() + static_cast<std::ptrdiff_t>(end));
     std::vector<std::uint32_t> rank = reorder::sorted_permutation(captured), placed(rank.size());
@@ -122,7 +126,8 @@ void BufferStream::distribute(std::uint64_t begin, std::uint64_t end, const Sink
             // A part holds the ranks that are its places.
             const std::uint64_t records = last - first;
             std::uint64_t free[parts];
-            for (std::uint64_t part = 0; part < parts; ++part) free[part] = first + (part * records + parts - 1) / parts;
+            for (std::uint64_t part = 0; part < parts; ++part)
+                free[part] = first + (part * records + parts - 1) / parts;
             for (std::uint64_t place = first; place < last; ++place) {
                 if (round > 0) touch(batch_place((round - 1) % 2, place), bytes, Access::read, sink);
                 const std::uint64_t to = free[(rank[place] - first) * parts / records]++;
@@ -145,12 +150,13 @@ std::uint64_t BufferStream::batch_place(std::uint32_t array, std::uint64_t place
 void BufferStream::make_all_possible(const Sink& sink) {
     const reorder::BoundedBuckets& buckets = *use_.buckets;
     for (; made_ < permutation_.size(); ++made_) {
-        const std::uint32_t query =
-            buckets.made.empty() ? static_cast<std::uint32_t>(made_) : buckets.made[static_cast<std::size_t>(made_)];
+        const std::uint32_t query = buckets.made.empty() ? static_cast<std::uint32_t>(made_)
+                                                         : buckets.made[static_cast<std::size_t>(made_)];
         const std::uint32_t bucket = buckets.bucket[query];
         if (pushed_[bucket] - popped_[bucket] == buckets.capacity) return;
         if (use_.state) pass_over(made_, query, sink);
-        const std::uint64_t place = std::uint64_t{bucket} * buckets.capacity + pushed_[bucket]++ % buckets.capacity;
+        const std::uint64_t place =
+            std::uint64_t{bucket} * buckets.capacity + pushed_[bucket]++ % buckets.capacity;
         if (const std::uint64_t bytes = buckets.record_bytes; bytes > 0)
             touch(records_ + place * bytes, bytes, Access::write, sink);
     }

@@ -1,15 +1,18 @@
-// replay/buffer_stream.h -- the accesses of an ordering's buffers in memory, one after the other, in step with the
-// searches: reorder/buffer_use.h says what happens, this says where and when.
+// replay/buffer_stream.h -- the accesses of an ordering's buffers in memory, one after the other, in step
+// with the searches: reorder/buffer_use.h says what happens, this says where and when.
 //
-// Addresses are offsets from the start of the buffers. The pixel state of one tile comes first, then the records; each
-// array starts on a multiple of `alignment`, and the next tile or batch uses it again.
-// - Batches: when the first search of a batch is due, all its records are written in capture order, each at the next
-//   free place of the part that it belongs to. Parts are 256 runs of equally many records of the sorted batch (of the part, in
-//   later rounds). A further round reads them place by place and writes them into a second array, and the next one back. Just
-//   before search r of the batch, place r is read.
-// - Buckets: a record is written into its bucket, which is a ring of `capacity` places, as soon as it is made, and read
+// Addresses are offsets from the start of the buffers. The pixel state of one tile comes first, then the
+// records; each array starts on a multiple of `alignment`, and the next tile or batch uses it again.
+// - Batches: when the first search of a batch is due, all its records are written in capture order, each at
+// the next
+//   free place of the part that it belongs to. Parts are 256 runs of equally many records of the sorted batch
+//   (of the part, in later rounds). A further round reads them place by place and writes them into a second
+//   array, and the next one back. Just before search r of the batch, place r is read.
+// - Buckets: a record is written into its bucket, which is a ring of `capacity` places, as soon as it is
+// made, and read
 //   just before its search.
-// - Pixel state: just before a query of a pass is made, the state of all pixels of the tile up to its own; in row order.
+// - Pixel state: just before a query of a pass is made, the state of all pixels of the tile up to its own; in
+// row order.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -24,7 +27,8 @@ namespace regather::replay {
 
 class BufferStream {
 public:
-    /// `permutation` as the use was made for; both outlive the stream. Throws std::invalid_argument when they do not fit.
+    /// `permutation` as the use was made for; both outlive the stream. Throws std::invalid_argument when they
+    /// do not fit.
     BufferStream(const reorder::BufferUse& use, std::span<const std::uint32_t> permutation);
 
     using Sink = std::function<void(std::span<const cachesim::ByteAccess>)>;

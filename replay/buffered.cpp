@@ -59,8 +59,8 @@ private:
     };
     static constexpr std::size_t ready_lines = 16384, most_sets = 4096;
 
-    /// A read of the line that is the last one used of its set changes nothing in an LRU cache, nor in one of more sets; such
-    /// reads are counted, but not passed on.
+    /// A read of the line that is the last one used of its set changes nothing in an LRU cache, nor in one of
+    /// more sets; such reads are counted, but not passed on.
     void append(std::uint64_t address, std::uint64_t bytes, Access kind, trace::Region region) {
         cachesim::for_each_line(address, bytes, line_bytes(), [&](Line line) {
             ++accesses_[static_cast<std::size_t>(region)];
@@ -125,7 +125,8 @@ std::vector<BufferedTraffic> replay_with_buffers(const WalkStore& walks, const H
             stats.accesses = streams[stream_of[i]].accesses(region);
             return stats;
         };
-        BufferedTraffic traffic{cache.config(), of(trace::Region::photons), of(trace::Region::reorder_buffer), 0, 0};
+        BufferedTraffic traffic{cache.config(), of(trace::Region::photons), of(trace::Region::reorder_buffer),
+                                0, 0};
         const std::uint64_t line = cache.config().line_bytes;
         traffic.photon_bytes = (traffic.photons.misses + traffic.photons.writebacks) * line;
         traffic.buffer_bytes = (traffic.buffers.misses + traffic.buffers.writebacks) * line;

@@ -1,5 +1,6 @@
-// replay/buffered.h -- one order through several LRU caches, with the accesses of the ordering's buffers between the
-// searches: the traffic of photons and of buffers, each as it is when the other takes its share of the cache.
+// replay/buffered.h -- one order through several LRU caches, with the accesses of the ordering's buffers
+// between the searches: the traffic of photons and of buffers, each as it is when the other takes its share
+// of the cache.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -19,9 +20,9 @@ struct BufferedTraffic {
     std::uint64_t photon_bytes = 0, buffer_bytes = 0;  ///< Traffic: (misses + writebacks) x line_bytes.
 };
 
-/// A result for each cache, in the order asked for, as if it were alone; the counts are those of replay_in_detail().
-/// Every cache is simulated by itself, so a family costs as many passes as it has caches. One thread; several replays
-/// of one store can run at once. Throws as replay() does.
+/// A result for each cache, in the order asked for, as if it were alone; the counts are those of
+/// replay_in_detail(). Every cache is simulated by itself, so a family costs as many passes as it has caches.
+/// One thread; several replays of one store can run at once. Throws as replay() does.
 std::vector<BufferedTraffic> replay_with_buffers(const WalkStore& walks, const HeapLayout& layout,
                                                  std::span<const std::uint32_t> permutation,
                                                  const reorder::BufferUse& use,

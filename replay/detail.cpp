@@ -24,8 +24,9 @@ std::uint64_t Detail::traffic_bytes(std::optional<trace::Region> region) const {
     return sum;
 }
 
-Detail replay_in_detail(const WalkStore& walks, const HeapLayout& layout, std::span<const std::uint32_t> permutation,
-                        const reorder::BufferUse& use, const DetailConfig& config, const QueriesDone& progress) {
+Detail replay_in_detail(const WalkStore& walks, const HeapLayout& layout,
+                        std::span<const std::uint32_t> permutation, const reorder::BufferUse& use,
+                        const DetailConfig& config, const QueriesDone& progress) {
     if (config.slices == 0) throw trace::UsageError("slices: found 0, expected at least 1");
     const auto start = std::chrono::steady_clock::now();
     const auto depths = static_cast<std::uint32_t>(std::bit_width(walks.photons()));
@@ -46,7 +47,8 @@ Detail replay_in_detail(const WalkStore& walks, const HeapLayout& layout, std::s
     std::uint64_t r = 0, first = 0;
     const auto end_slice = [&] {
         const cachesim::ClassStats now = cache.total();
-        detail.slices.push_back({first, r - first, now.accesses - before.accesses, now.misses - before.misses});
+        detail.slices.push_back(
+            {first, r - first, now.accesses - before.accesses, now.misses - before.misses});
         before = now;
         first = r;
     };
@@ -63,7 +65,8 @@ Detail replay_in_detail(const WalkStore& walks, const HeapLayout& layout, std::s
 
     const std::span<const cachesim::ClassStats> stats = cache.stats();
     for (std::uint32_t depth = 0; depth < depths; ++depth)
-        detail.parts.push_back({trace::Region::photons, depth, stats[depth], cache.traffic_bytes(stats[depth])});
+        detail.parts.push_back(
+            {trace::Region::photons, depth, stats[depth], cache.traffic_bytes(stats[depth])});
     detail.parts.push_back(
         {trace::Region::reorder_buffer, {}, stats[buffers], cache.traffic_bytes(stats[buffers])});
     detail.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -1,6 +1,6 @@
-// replay/detail.h -- one order through one LRU cache, told apart: which data missed (photons by depth in the tree, the
-// reorder buffers), why (Hill's three classes), how much of what was fetched was used, and when. What is counted and whom it
-// is charged to: docs/attribution.md.
+// replay/detail.h -- one order through one LRU cache, told apart: which data missed (photons by depth in the
+// tree, the reorder buffers), why (Hill's three classes), how much of what was fetched was used, and when.
+// What is counted and whom it is charged to: docs/attribution.md.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -29,7 +29,8 @@ struct DetailPart {
     std::uint64_t traffic_bytes = 0;
 };
 
-/// Consecutive queries; accesses and misses of all regions, the bytes still to be written back not among them.
+/// Consecutive queries; accesses and misses of all regions, the bytes still to be written back not among
+/// them.
 struct DetailSlice {
     std::uint64_t first_query = 0, queries = 0, accesses = 0, misses = 0;
 };
@@ -44,9 +45,10 @@ struct Detail {
     std::uint64_t traffic_bytes(std::optional<trace::Region> region = {}) const;
 };
 
-/// Runs the queries of `permutation` and, in step with them, the buffers' accesses, at addresses behind the photons. An
-/// empty `use`, or one that is not known, makes none. One thread. Throws as replay() does.
-Detail replay_in_detail(const WalkStore& walks, const HeapLayout& layout, std::span<const std::uint32_t> permutation,
-                        const reorder::BufferUse& use, const DetailConfig& config, const QueriesDone& progress = {});
+/// Runs the queries of `permutation` and, in step with them, the buffers' accesses, at addresses behind the
+/// photons. An empty `use`, or one that is not known, makes none. One thread. Throws as replay() does.
+Detail replay_in_detail(const WalkStore& walks, const HeapLayout& layout,
+                        std::span<const std::uint32_t> permutation, const reorder::BufferUse& use,
+                        const DetailConfig& config, const QueriesDone& progress = {});
 
 }  // namespace regather::replay

@@ -153,6 +153,20 @@ Revisits count_revisits(const WalkStore& walks, const HeapLayout& layout, const 
     return sum;
 }
 
+bool serve(const Revisits& revisits, const ReplayConfig& config) {
+    for (const auto& [line_bytes, family] : families(config)) {
+        const auto counts = revisits.find(line_bytes);
+        if (counts == revisits.end()) return false;
+        for (const cachesim::FamilyLevel& level : family.levels)
+            if (std::none_of(counts->second.levels.begin(), counts->second.levels.end(), [&](const FamilyCounts::Level& held) {
+                    return held.level.sets == level.sets && held.misses.size() >= level.ways &&
+                           held.conflicts.size() >= (config.classes ? level.ways : 0);
+                }))
+                return false;
+    }
+    return true;
+}
+
 Replayed replay(const WalkStore& walks, const HeapLayout& layout, std::span<const std::uint32_t> permutation,
                 const ReplayConfig& config, const Revisits& revisits, const QueriesDone& progress) {
     assert(permutation.size() == walks.queries());

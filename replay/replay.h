@@ -68,6 +68,9 @@ bool family_serves(const cachesim::CacheConfig& config);
 Revisits count_revisits(const WalkStore& walks, const HeapLayout& layout, const ReplayConfig& config,
                         const QueriesDone& progress = {});
 
+/// Whether `revisits` are of these caches or more.
+bool serve(const Revisits& revisits, const ReplayConfig& config);
+
 /// Runs all queries in the order of `permutation` through each cache, as if it were alone. `revisits` are of the same walks,
 /// layout, and of these caches or more. `progress` is told the queries done now and then. One thread; several replays of one
 /// store can run at once. Throws as count_revisits().

@@ -164,23 +164,17 @@ SetSample::SetSample(const WalkStore& walks, const HeapLayout& layout, std::span
 
 /// One replay's simulation of the sampled classes of a line size.
 struct SetSample::Run {
-    Run(const LineSize& s, const HeapLayout& layout, std::uint32_t photons)
-        : size(s), lines(layout, s.line_bytes, photons), shift(std::countr_zero(s.classes)), last(s.touches.size(), ~std::uint64_t{0}),
+    Run(const LineSize& s, const HeapLayout& l, std::uint32_t photons)
+        : size(s), layout(l), lines(l, s.line_bytes, photons), shift(std::countr_zero(s.classes)), last(s.touches.size(), ~std::uint64_t{0}),
           waiting(s.touches.size()) {
         for (std::size_t n = 0; n < s.touches.size(); ++n) classes.emplace_back(s.family);
+        for (const std::uint16_t number : s.sampled) is_sampled.push_back(number != unsampled ? 1 : 0);
     }
 
     void visit(std::span<const std::uint32_t> slots) {
-        const std::span<const Line> touches = lines.touches(slots);
-        accesses += touches.size();
-        if (found.size() < touches.size()) found.resize(2 * touches.size());
+        const std::size_t count = find(slots);
         const std::uint16_t* const sampled = size.sampled.data();
         const std::uint64_t mask = size.classes - 1;
-        std::size_t count = 0;
-        for (const Line line : touches) {  // without a branch: few are sampled, and nobody could foretell which
-            found[count] = line;
-            count += sampled[static_cast<std::uint64_t>(line) & mask] != unsampled ? 1 : 0;
-        }
         for (std::size_t i = 0; i < count; ++i) {
             const auto line = static_cast<std::uint64_t>(found[i]);
             const std::uint16_t n = sampled[line & mask];
@@ -189,6 +183,39 @@ struct SetSample::Run {
             waiting[n].push_back(Line{line >> shift});
             if (waiting[n].size() == batch) pass(n);
         }
+    }
+    /// Puts the touches of sampled lines into `found`; returns their number. Without a branch: few are sampled, and nobody
+    /// could foretell which.
+    std::size_t find(std::span<const std::uint32_t> slots) {
+        const std::uint8_t* const wanted = is_sampled.data();
+        const std::uint64_t mask = size.classes - 1;
+        std::size_t count = 0;
+        if (layout.used_bytes > size.line_bytes) {  // a node may lie on more than two lines
+            const std::span<const Line> touches = lines.touches(slots);
+            accesses += touches.size();
+            if (found.size() < touches.size()) found.resize(2 * touches.size());
+            for (const Line line : touches) {
+                found[count] = line;
+                count += wanted[static_cast<std::uint64_t>(line) & mask];
+            }
+            return count;
+        }
+        if (found.size() <= 2 * slots.size()) found.resize(4 * slots.size() + 1);
+        Line* const to = found.data();
+        const int line_shift = std::countr_zero(size.line_bytes);
+        std::uint64_t on_two = 0;
+        for (const std::uint32_t slot : slots) {
+            const std::uint64_t address = layout.address(slot);
+            const std::uint64_t first = address >> line_shift, second = (address + layout.used_bytes - 1) >> line_shift;
+            const std::uint64_t two = second - first;
+            on_two += two;
+            to[count] = Line{first};
+            count += wanted[first & mask];
+            to[count] = Line{second};
+            count += wanted[second & mask] & two;
+        }
+        accesses += slots.size() + on_two;
+        return count;
     }
     void pass(std::size_t n) {
         classes[n].access(waiting[n]);
@@ -205,11 +232,12 @@ struct SetSample::Run {
         }
         const double missed = std::accumulate(misses.begin(), misses.end(), 0.0);
         const double touched = std::accumulate(size.touches.begin(), size.touches.end(), 0.0);
-        // Without a touched line in the sample there is nothing to take a ratio to.
-        const double ratio = touched > 0 ? missed / touched : 0;
-        const double total = touched > 0 ? ratio * size.all_touches : missed / n * all;
+        // Without a touched line in the sample there is nothing to take a ratio to: every class counts the same.
+        const double ratio = touched > 0 ? missed / touched : 0, mean = missed / n;
+        const double total = touched > 0 ? ratio * size.all_touches : mean * all;
         double squares = 0;
-        for (std::size_t u = 0; u < units; ++u) squares += std::pow(misses[u] - ratio * size.touches[u], 2);
+        for (std::size_t u = 0; u < units; ++u)
+            squares += std::pow(misses[u] - (touched > 0 ? ratio * size.touches[u] : mean), 2);
         const double error = all * std::sqrt((1 - n / all) / n * squares / (n - 1));
         const double reach = student_quantile_95(units - 1) * error;
         CacheTraffic result{.config = config, .accesses = accesses, .misses = static_cast<std::uint64_t>(std::llround(total)),
@@ -224,9 +252,11 @@ struct SetSample::Run {
 
     static constexpr std::size_t batch = 4096;
     const LineSize& size;
+    const HeapLayout& layout;
     WalkLines lines;
     int shift;
     std::uint64_t accesses = 0;
+    std::vector<std::uint8_t> is_sampled;  // by class
     std::vector<Line> found;
     std::vector<std::uint64_t> last;
     std::vector<std::vector<Line>> waiting;

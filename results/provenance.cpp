@@ -1,14 +1,29 @@
 #include "results/provenance.h"
-#include "trace/file.h"
+
+#include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
+#include "trace/error.h"
+#include "trace/file.h"
 
 namespace regather::results {
 
 std::filesystem::path provenance_path(const std::filesystem::path& csv) {
     std::filesystem::path json = csv;
     return json.replace_extension(".json");
+}
+
+void refuse_to_overwrite(const std::filesystem::path& csv, bool force) {
+    const std::filesystem::path json = provenance_path(csv);
+    if (json == csv)
+        throw trace::UsageError(fmt::format("--csv: found {}, expected another ending than .json, which the provenance "
+                                            "beside it bears",
+                                            csv.string()));
+    if (force) return;
+    for (const std::filesystem::path& file : {csv, json})
+        if (std::filesystem::exists(file))
+            throw trace::UsageError(fmt::format("{}: exists; --force overwrites it", file.string()));
 }
 
 void write_provenance(const std::filesystem::path& csv, const Provenance& provenance,

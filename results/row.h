@@ -35,7 +35,7 @@ struct Row {
     Count compulsory, capacity, conflict;  ///< Misses by Hill's classes; their sum is `misses`.
     Count writebacks;                      ///< Dirty lines written back.
     Count onchip_bytes;                    ///< What the chip may buffer for reordering.
-    Count buffer_traffic_bytes;            ///< Of the reorder buffers, through the same cache.
+    Count buffer_traffic_bytes;            ///< What the reorder buffers add, through the same cache.
     std::optional<std::int64_t>
         net_benefit_bytes;  ///< Traffic of naive less net_traffic() of this row; benefit.h.
     Count set_sampling,

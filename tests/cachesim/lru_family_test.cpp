@@ -176,6 +176,141 @@ TEST(LruFamily, MoreWaysNeverMissMoreAndTheClassesAddUp) {
         }
 }
 
+TEST(LruFamily, CountsHold64BitsAndAddUp) {
+    LruFamily family({.levels = levels});
+    Scatter scatter(9);
+    std::vector<Line> lines;
+    for (int i = 0; i < 3000; ++i) lines.push_back(Line{scatter.below(400)});
+    family.access(lines);
+    const FamilyCounts once = family.counts();
+    FamilyCounts sum;
+    sum += once;
+    EXPECT_EQ(sum, once);
+    for (int doubled = 0; doubled < 40; ++doubled) sum += FamilyCounts(sum);
+    constexpr std::uint64_t times = std::uint64_t{1} << 40;
+    EXPECT_EQ(sum.accesses, 3000 * times);
+    EXPECT_EQ(sum.compulsory, std::set<Line>(lines.begin(), lines.end()).size() * times);
+    for (const FamilyLevel& level : levels)
+        for (std::uint32_t ways = 1; ways <= level.ways; ++ways) {
+            EXPECT_EQ(sum.misses(level.sets, ways), once.misses(level.sets, ways) * times);
+            EXPECT_EQ(sum.conflicts(level.sets, ways), once.conflicts(level.sets, ways) * times);
+        }
+    for (const std::uint64_t size : {1, 20, 300, 500}) EXPECT_EQ(sum.full_misses(size), once.full_misses(size) * times);
+}
+
+TEST(LruFamily, CountsOfTwoFamiliesDoNotAddUp) {
+    FamilyCounts sum = LruFamily({.levels = {{2, 4}}}).counts();
+    EXPECT_THROW(sum += LruFamily({.levels = {{4, 4}}}).counts(), std::logic_error);
+    EXPECT_THROW(sum.misses(2, 5), std::logic_error);
+    EXPECT_THROW(sum.misses(2, 0), std::logic_error);
+    EXPECT_THROW(sum.misses(4, 1), std::logic_error);
+}
+
+/// Hits near and far, in lines of which some meet in every set.
+std::vector<Line> skewed_lines(std::uint64_t base, std::size_t count = 20'000) {
+    Scatter scatter(21);
+    std::vector<Line> lines(count);
+    for (Line& line : lines) line = Line{base + scatter.below(1 + scatter.below(3000)) * (1 + 255 * scatter.below(2))};
+    return lines;
+}
+
+TEST(LruFamily, ALevelDoesNotKnowOfTheOthersNorOfTheirOrder) {
+    const std::vector<Line> lines = skewed_lines(0);
+    LruFamily all({.levels = levels});
+    all.access(lines);
+    const FamilyCounts together = all.counts();
+
+    std::vector<FamilyLevel> backwards(levels.rbegin(), levels.rend());
+    std::rotate(backwards.begin(), backwards.begin() + 3, backwards.end());
+    LruFamily other({.levels = backwards});
+    other.access(lines);
+    EXPECT_EQ(other.counts().by_distance, together.by_distance);
+    for (const FamilyLevel& level : levels) {
+        LruFamily one({.levels = {level}});
+        one.access(lines);
+        EXPECT_EQ(one.counts().compulsory, together.compulsory);
+        for (std::uint32_t ways = 1; ways <= level.ways; ++ways) {
+            EXPECT_EQ(one.counts().misses(level.sets, ways), together.misses(level.sets, ways));
+            EXPECT_EQ(one.counts().conflicts(level.sets, ways), together.conflicts(level.sets, ways));
+            EXPECT_EQ(other.counts().misses(level.sets, ways), together.misses(level.sets, ways));
+            EXPECT_EQ(other.counts().conflicts(level.sets, ways), together.conflicts(level.sets, ways));
+        }
+    }
+}
+
+TEST(LruFamily, ACallOrManyAndCountsReadInBetweenAreTheSame) {
+    const std::vector<Line> lines = skewed_lines(0, 5000);
+    LruFamily whole({.levels = levels}), by_line({.levels = levels});
+    whole.access(lines);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        by_line.access(std::span(lines).subspan(i, 1));
+        if (i % 7 == 0) {
+            ASSERT_EQ(by_line.counts().accesses, i + 1);
+        }
+    }
+    EXPECT_EQ(by_line.counts(), whole.counts());
+    whole.access({});
+    whole.access_first({}, {});
+    whole.revisit({});
+    EXPECT_EQ(by_line.counts(), whole.counts());
+}
+
+TEST(LruFamily, MissesAreTheSameWithoutDistancesOrConflicts) {
+    const std::vector<Line> lines = skewed_lines(0);
+    LruFamily all({.levels = levels}), no_conflicts({.levels = levels, .conflicts = false}),
+        bare({.levels = levels, .distances = false, .conflicts = false, .stamps = 1});
+    for (LruFamily* family : {&all, &no_conflicts, &bare}) family->access(lines);
+    EXPECT_EQ(no_conflicts.counts().by_distance, all.counts().by_distance);
+    EXPECT_TRUE(bare.counts().by_distance.empty());
+    for (LruFamily* family : {&no_conflicts, &bare}) {
+        EXPECT_EQ(family->counts().accesses, all.counts().accesses);
+        EXPECT_EQ(family->counts().compulsory, all.counts().compulsory);
+        for (std::size_t l = 0; l < levels.size(); ++l) {
+            EXPECT_EQ(family->counts().levels[l].misses, all.counts().levels[l].misses);
+            EXPECT_TRUE(family->counts().levels[l].conflicts.empty());
+        }
+    }
+}
+
+TEST(LruFamily, WhereLinesLieDoesNotMatterAsLongAsTheirSetsAreTheSame) {
+    LruFamily low({.levels = levels});
+    low.access(skewed_lines(0));
+    for (const std::uint64_t base : {std::uint64_t{1} << 24, std::uint64_t{1} << 32, std::uint64_t{1} << 63}) {
+        LruFamily high({.levels = levels});
+        high.access(skewed_lines(base));
+        EXPECT_EQ(high.counts(), low.counts()) << base;
+    }
+}
+
+TEST(LruFamily, TheLastLineIsALineLikeAnyOther) {
+    const std::vector<Line> lines{Line{~std::uint64_t{0}}, Line{~std::uint64_t{0}}, Line{~std::uint64_t{0} - 256}};
+    LruFamily family({.levels = levels});
+    family.access(lines);
+    for (const FamilyLevel& level : levels) EXPECT_EQ(family.counts().misses(level.sets, level.ways), 2u) << level.sets;
+}
+
+/// Few stamps, so that they are used up again and again between walks whose newest lines were left out of a filter.
+TEST(LruFamily, WalksOutlastTheirStamps) {
+    Scatter scatter(31);
+    LruFamily few({.levels = levels, .stamps = 1}), bare({.levels = levels, .distances = false, .stamps = 1}),
+        again({.levels = levels, .stamps = 1});
+    LruFamily whole({.levels = levels});
+    for (int w = 0; w < 6000; ++w) {
+        std::vector<Line> walk;
+        for (std::uint64_t i = 20 + scatter.below(20); i > 0; --i)
+            walk.push_back(Line{scatter.below(1 + scatter.below(w % 50 == 0 ? 40'000 : 700))});
+        access_first(few, walk);
+        access_first(bare, walk);
+        again.revisit(walk);
+        whole.access(walk);
+    }
+    FamilyCounts sum = few.counts();
+    sum += again.counts();
+    EXPECT_EQ(sum, whole.counts());
+    for (std::size_t l = 0; l < levels.size(); ++l)
+        EXPECT_EQ(bare.counts().levels[l].misses, few.counts().levels[l].misses);
+}
+
 TEST(LruFamily, RefusesImpossibleLevels) {
     EXPECT_THROW(LruFamily({.levels = {{3, 1}}}), trace::UsageError);
     EXPECT_THROW(LruFamily({.levels = {{0, 1}}}), trace::UsageError);

@@ -1,5 +1,8 @@
 // `regather run`: a whole experiment, taken up where it stopped.
 #include "cli/experiment.h"
+
+#include <nlohmann/json.hpp>
+
 #include "results/csv.h"
 #include "tests/cli/expect.h"
 #include "trace/error.h"
@@ -27,9 +30,18 @@ protected:
     std::vector<fs::path> parts() const {
         std::vector<fs::path> found;
         for (const auto& entry : fs::directory_iterator(folder_ / "parts"))
-            if (!entry.path().filename().string().starts_with("compulsory")) found.push_back(entry.path());
+            if (entry.path().extension() == ".csv" && !entry.path().filename().string().starts_with("compulsory"))
+                found.push_back(entry.path());
         std::sort(found.begin(), found.end());
         return found;
+    }
+    /// What the replays of all orders share.
+    fs::path revisits() const {
+        std::vector<fs::path> found;
+        for (const auto& entry : fs::directory_iterator(folder_ / "parts"))
+            if (entry.path().filename().string().starts_with("revisits-")) found.push_back(entry.path());
+        if (found.size() != 1) throw std::runtime_error("expected one file of revisits");
+        return found.front();
     }
     /// As the binary would refuse it, without starting one.
     void refused(const std::string& text, const std::vector<std::string>& parts_of_message) const {
@@ -144,6 +156,104 @@ TEST_F(Run, ADamagedPartIsRefusedByName) {
     const Outcome outcome = regather(words());
     EXPECT_EQ(outcome.exit_code, bad_data);
     EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr(part.filename().string()), HasSubstr("line")));
+}
+
+TEST_F(Run, WhatNoOrderChangesIsKeptAndUsedAgain) {
+    expect_done(words());
+    const auto before = results::read_csv(folder_ / "rows.csv");
+    // 1000 more misses of 8 ways in every level show in the trial that is replayed again, and in no other.
+    nlohmann::json kept = nlohmann::json::parse(content(revisits()));
+    for (nlohmann::json& level : kept.at(0).at("levels"))
+        level.at("misses").at(7) = level.at("misses").at(7).get<std::uint64_t>() + 1000;
+    write(revisits(), kept.dump());
+    const std::vector<results::Row> lost = results::read_csv(parts().front());
+    fs::remove(parts().front());
+    expect_done(words());
+    const auto after = results::read_csv(folder_ / "rows.csv");
+    ASSERT_EQ(after.size(), before.size());
+    for (std::size_t r = 0; r < rows; ++r)
+        EXPECT_EQ(*after[r].misses, *before[r].misses + (before[r].parameters == lost[0].parameters ? 1000 : 0));
+}
+
+TEST_F(Run, DamagedRevisitsAreRefusedByName) {
+    expect_done(words());
+    const fs::path path = revisits();
+    const std::string name = path.filename().string(), whole = content(path);
+    fs::remove(parts().front());
+    const auto refused = [&](const std::string& text) {
+        write(path, text);
+        const Outcome outcome = regather(words());
+        EXPECT_EQ(outcome.exit_code, bad_data) << text.substr(0, 200) << outcome.err;
+        EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr(name), HasSubstr("expected")));
+    };
+    refused(whole.substr(0, whole.size() / 2));
+    refused("[]");
+    nlohmann::json fewer_ways = nlohmann::json::parse(whole), fewer_levels = fewer_ways;
+    fewer_ways.at(0).at("levels").at(0).at("misses").erase(7);
+    refused(fewer_ways.dump());
+    fewer_levels.at(0).at("levels").erase(1);
+    refused(fewer_levels.dump());
+    write(path, whole);
+    expect_done(words());
+}
+
+TEST_F(Run, ClassesAreAskedForByKey) {
+    write(file_, with("\"caches\"", "\"classes\": true, \"caches\""));
+    expect_done(words());
+    const auto all = results::read_csv(folder_ / "rows.csv");
+    ASSERT_EQ(all.size(), rows);
+    for (const results::Row& row : all) {
+        EXPECT_EQ(*row.compulsory + *row.capacity + *row.conflict, row.misses);
+        EXPECT_FALSE(row.set_sampling);
+    }
+    // Another method is another part: rows without classes do not come from those with them.
+    write(file_, experiment);
+    expect_done(words());
+    for (const results::Row& row : results::read_csv(folder_ / "rows.csv")) EXPECT_FALSE(row.compulsory);
+}
+
+TEST_F(Run, ASampleIsAskedForByKey) {
+    const std::string sampled = with("\"ways\": 8", "\"ways\": 1");
+    const auto asked = [&](const std::string& keys) {
+        std::string text = sampled;
+        write(file_, text.replace(text.find("\"caches\""), 8, keys + ", \"caches\""));
+        expect_done(words());
+        return results::read_csv(folder_ / "rows.csv");
+    };
+    const auto all = asked("\"sample\": 4, \"sample_seed\": 9");
+    ASSERT_EQ(all.size(), rows);
+    for (const results::Row& row : all) {
+        EXPECT_EQ(row.set_sampling, 4u);
+        EXPECT_EQ(row.sampled_sets, *row.cache_bytes / 128 / 4);
+        EXPECT_LE(row.misses_low, row.misses);
+        EXPECT_LE(row.misses, row.misses_high);
+    }
+    const auto of_replay = results::from_csv(expect_done({"replay", (folder_ / "trace").string(), "--order", "naive", "--cache",
+                                                          "2K,4K:128:1", "--sample", "4", "--seed", "9"})
+                                                 .out,
+                                             "stdout");
+    EXPECT_EQ(all[0].misses, of_replay[0].misses);
+    EXPECT_EQ(all[1].misses, of_replay[1].misses);
+    // Another seed is another part.
+    const auto other = asked("\"sample\": 4, \"sample_seed\": 8");
+    EXPECT_NE(std::pair(other[0].misses, other[1].misses), std::pair(all[0].misses, all[1].misses));
+}
+
+TEST_F(Run, BadMethodsAreRefusedWithTheirPlace) {
+    const auto method = [](const std::string& keys) { return with("\"caches\"", keys + ", \"caches\""); };
+    refused(method("\"classes\": 1"), {"classes", "found 1"});
+    refused(method("\"classes\": \"yes\""), {"classes", "\"yes\""});
+    refused(method("\"sample\": 3"), {"sample", "1/3"});
+    refused(method("\"sample\": 0"), {"sample", "found 0"});
+    refused(method("\"sample\": 2048"), {"sample", "found 2048"});
+    refused(method("\"sample\": \"4\""), {"sample", "\"4\"", "whole number"});
+    refused(method("\"sample\": 4"), {"sample", "at least 8 sets"});  // 2 KB of 8 ways are 2 sets
+    refused(method("\"classes\": true, \"sample\": 4"), {"classes", "\"sample\""});
+    refused(method("\"sample\": 2, \"sample_seed\": -1"), {"sample_seed", "-1"});
+    refused(method("\"sample_sed\": 1"), {"sample_sed", "\"sample_seed\""});
+    write(file_, method("\"sample\": 3"));
+    expect_refused(bad_data, words(), {"experiment.json", "sample", "1/3"});
+    EXPECT_FALSE(fs::exists(folder_));
 }
 
 TEST_F(Run, KilledAtAnyMomentItIsTakenUpAgain) {

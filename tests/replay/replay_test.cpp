@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <list>
@@ -10,6 +11,7 @@
 
 #include "spatial/nearest.h"
 #include "spatial/recording.h"
+#include "tests/replay/traced.h"
 #include "tests/spatial/photons.h"
 #include "trace/error.h"
 
@@ -19,56 +21,10 @@ namespace {
 using spatial::Numbers;
 using trace::Vec3;
 
-struct Traced {
-    std::vector<trace::Photon> heap;
-    std::vector<Vec3> points;
-    spatial::Recording recording;
-
-    Traced(std::size_t photons, std::size_t queries, std::uint32_t k)
-        : heap(spatial::left_balanced(spatial::uniform_photons(photons))) {
-        Numbers numbers(11);
-        for (std::size_t q = 0; q < queries; ++q)
-            points.push_back({numbers.uniform(), numbers.uniform(), numbers.uniform()});
-        recording = spatial::record_walks(spatial::PhotonKd(heap), points, k, 1e9f);
-    }
-    WalkStore walks() const {
-        return {static_cast<std::uint32_t>(heap.size()), recording.walk_bytes, recording.walks};
-    }
-    /// The lines of 128 bytes that searching in this order touches, one by one.
-    std::vector<std::uint64_t> searched_lines(std::span<const std::uint32_t> order, std::uint32_t k,
-                                              std::uint64_t line_bytes) const {
-        struct Touch {
-            std::vector<std::uint64_t> lines;
-            std::uint64_t line_bytes;
-            void visit(std::uint32_t node) {
-                const std::uint64_t first = node * 20 / line_bytes, last = (node * 20 + 19) / line_bytes;
-                for (std::uint64_t line = first; line <= last; ++line) lines.push_back(line);
-            }
-            void near(bool) {}
-            void far(bool) {}
-        } touch{{}, line_bytes};
-        spatial::NearestSet found(k);
-        for (const std::uint32_t q : order) spatial::nearest(spatial::PhotonKd(heap), points[q], found, touch);
-        return touch.lines;
-    }
-};
-
-/// LRU by its definition: a list of lines, the last used first.
 std::uint64_t misses_of_a_list(std::span<const std::uint64_t> lines, std::uint64_t sets, std::size_t ways) {
-    std::vector<std::list<std::uint64_t>> held(sets);
-    std::uint64_t misses = 0;
-    for (const std::uint64_t line : lines) {
-        std::list<std::uint64_t>& set = held[line % sets];
-        const auto found = std::find(set.begin(), set.end(), line);
-        if (found != set.end()) {
-            set.erase(found);
-        } else {
-            ++misses;
-            if (set.size() == ways) set.pop_back();
-        }
-        set.push_front(line);
-    }
-    return misses;
+    ListedLru list(sets, ways);
+    return static_cast<std::uint64_t>(
+        std::count_if(lines.begin(), lines.end(), [&](std::uint64_t line) { return list.misses(line); }));
 }
 
 Replayed replay(const WalkStore& walks, const HeapLayout& layout, std::span<const std::uint32_t> order,
@@ -77,22 +33,13 @@ Replayed replay(const WalkStore& walks, const HeapLayout& layout, std::span<cons
     return replay(walks, layout, order, config, count_revisits(walks, layout, config));
 }
 
-std::vector<std::uint32_t> shuffled(std::size_t count, std::uint64_t seed) {
-    std::vector<std::uint32_t> order(count);
-    std::iota(order.begin(), order.end(), 0u);
-    Numbers numbers(seed);
-    for (std::size_t i = count; i > 1; --i)
-        std::swap(order[i - 1], order[static_cast<std::size_t>(numbers.uniform() * static_cast<float>(i))]);
-    return order;
-}
-
 TEST(Replay, MissesAreThoseOfSearchingAgainInThatOrderThroughAListOfLines) {
-    const Traced traced(3000, 300, 20);
+    const Searched traced(3000, 300, 20);
     for (const std::uint64_t seed : {1u, 2u}) {
-        const std::vector<std::uint32_t> order = shuffled(300, seed);
+        const std::vector<std::uint32_t> order = shuffled_queries(300, seed);
         for (const cachesim::CacheConfig& cache : {cachesim::CacheConfig{4096, 128, 8}, cachesim::CacheConfig{2048, 64, 1},
                                                    cachesim::CacheConfig{1024, 16, 4}, cachesim::CacheConfig{8192, 128, 0}}) {
-            const auto lines = traced.searched_lines(order, 20, cache.line_bytes);
+            const auto lines = traced.lines_of(order, cache.line_bytes);
             const std::uint64_t sets = cache.sets();
             const std::size_t ways = cache.ways == 0 ? cache.size_bytes / cache.line_bytes : cache.ways;
             const Replayed replayed = replay(traced.walks(), {}, order, std::span(&cache, 1));
@@ -105,7 +52,7 @@ TEST(Replay, MissesAreThoseOfSearchingAgainInThatOrderThroughAListOfLines) {
 
 TEST(Replay, NodesOfThreePhotonsOn64ByteLinesAreThoseDrawnByHand) {
     // Nodes 0, 1, 2 at bytes 0, 20, 40: all on line 0; a fourth at 60 straddles lines 0 and 1.
-    const Traced three(3, 1, 3), four(4, 1, 4);
+    const Searched three(3, 1, 3), four(4, 1, 4);
     const std::vector<std::uint32_t> order{0};
     const cachesim::CacheConfig cache{1024, 64, 2};
     EXPECT_EQ(replay(three.walks(), {}, order, std::span(&cache, 1)).caches[0].accesses, 3u);
@@ -116,8 +63,8 @@ TEST(Replay, NodesOfThreePhotonsOn64ByteLinesAreThoseDrawnByHand) {
 }
 
 TEST(Replay, ACacheDoesNotKnowOfTheOthers) {
-    const Traced traced(2000, 200, 10);
-    const std::vector<std::uint32_t> order = shuffled(200, 4);
+    const Searched traced(2000, 200, 10);
+    const std::vector<std::uint32_t> order = shuffled_queries(200, 4);
     const std::vector<cachesim::CacheConfig> caches{{4096, 128, 8}, {2048, 64, 2}, {16384, 128, 0}, {4096, 128, 1}};
     const Replayed together = replay(traced.walks(), {}, order, caches);
     for (std::size_t i = 0; i < caches.size(); ++i)
@@ -126,41 +73,166 @@ TEST(Replay, ACacheDoesNotKnowOfTheOthers) {
 }
 
 TEST(Replay, WhatIsAskedForDoesNotDependOnTheOrderAndCompulsoryTrafficIsTheFloor) {
-    const Traced traced(2000, 400, 10);
+    const Searched traced(2000, 400, 10);
     const cachesim::CacheConfig cache{4096, 128, 8};
     const std::vector<bool> touched = touched_nodes(traced.walks());
     const std::uint64_t floor = compulsory_bytes(touched, {}, 128);
     std::set<std::uint64_t> accesses;
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
-        const Replayed replayed = replay(traced.walks(), {}, shuffled(400, seed), std::span(&cache, 1));
+        const Replayed replayed = replay(traced.walks(), {}, shuffled_queries(400, seed), std::span(&cache, 1));
         accesses.insert(replayed.caches[0].accesses);
         EXPECT_EQ(replayed.visited_nodes, traced.recording.visited_nodes);
         EXPECT_GE(replayed.caches[0].traffic_bytes, floor);
     }
     EXPECT_EQ(accesses.size(), 1u);
-    const auto lines = traced.searched_lines(shuffled(400, 1), 10, 128);
+    const auto lines = traced.lines_of(shuffled_queries(400, 1), 128);
     EXPECT_EQ(floor, std::set<std::uint64_t>(lines.begin(), lines.end()).size() * 128);
     const cachesim::CacheConfig everything{1 << 20, 128, 0};
-    EXPECT_EQ(replay(traced.walks(), {}, shuffled(400, 1), std::span(&everything, 1)).caches[0].traffic_bytes, floor);
+    EXPECT_EQ(replay(traced.walks(), {}, shuffled_queries(400, 1), std::span(&everything, 1)).caches[0].traffic_bytes, floor);
 }
 
 TEST(Replay, MoreWaysAtEqualSetsNeverMissMore) {
-    const Traced traced(5000, 300, 30);
+    const Searched traced(5000, 300, 30);
     std::uint64_t before = ~std::uint64_t{0};
     for (const std::uint32_t ways : {1u, 2u, 4u, 8u, 16u}) {
         const cachesim::CacheConfig cache{16 * ways * 128, 128, ways};
-        const std::uint64_t misses = replay(traced.walks(), {}, shuffled(300, 1), std::span(&cache, 1)).caches[0].misses;
+        const std::uint64_t misses = replay(traced.walks(), {}, shuffled_queries(300, 1), std::span(&cache, 1)).caches[0].misses;
         EXPECT_LE(misses, before);
         before = misses;
     }
 }
 
+const std::vector<cachesim::CacheConfig> served{{4096, 128, 8},    {2048, 64, 2},  {2048, 128, 1},  {1024, 16, 32},
+                                                {65536, 64, 4},    {3072, 64, 3},  {16384, 128, 0}, {3000, 8, 0},
+                                                {1 << 20, 128, 16}, {8192, 128, 4}, {64, 64, 1}};
+
+TEST(Replay, ClassesAreHillsOfEveryAccess) {
+    const Searched traced(3000, 150, 20);
+    const std::vector<std::uint32_t> order = shuffled_queries(150, 3);
+    const ReplayConfig config{served, true};
+    const WalkStore walks = traced.walks();
+    const Replayed replayed = replay(walks, {}, order, config, count_revisits(walks, {}, config));
+    for (std::size_t c = 0; c < served.size(); ++c) {
+        const cachesim::CacheConfig& cache = served[c];
+        const std::size_t size = cache.size_bytes / cache.line_bytes;
+        ListedLru list(cache.sets(), cache.ways == 0 ? size : cache.ways), full(1, size);
+        std::set<std::uint64_t> met;
+        MissClasses expected;
+        for (const std::uint64_t line : traced.lines_of(order, cache.line_bytes)) {
+            const bool missed = list.misses(line), full_missed = full.misses(line), first = met.insert(line).second;
+            if (missed) ++(first ? expected.compulsory : full_missed ? expected.capacity : expected.conflict);
+        }
+        const CacheTraffic& traffic = replayed.caches[c];
+        ASSERT_TRUE(traffic.classes);
+        EXPECT_EQ(traffic.classes->compulsory, expected.compulsory) << c;
+        EXPECT_EQ(traffic.classes->capacity, expected.capacity) << c;
+        EXPECT_EQ(traffic.classes->conflict, expected.conflict) << c;
+        EXPECT_EQ(traffic.classes->compulsory, met.size()) << c;
+        EXPECT_EQ(traffic.classes->compulsory + traffic.classes->capacity + traffic.classes->conflict, traffic.misses) << c;
+        if (cache.ways == 0) {
+            EXPECT_EQ(traffic.classes->conflict, 0u);
+        }
+        EXPECT_FALSE(traffic.error);
+    }
+}
+
+TEST(Replay, ClassesDoNotChangeTheMisses) {
+    const Searched traced(2000, 200, 10);
+    const std::vector<std::uint32_t> order = shuffled_queries(200, 8);
+    const WalkStore walks = traced.walks();
+    const ReplayConfig with{served, true}, without{served, false};
+    const Replayed a = replay(walks, {}, order, with, count_revisits(walks, {}, with));
+    const Replayed b = replay(walks, {}, order, without, count_revisits(walks, {}, without));
+    for (std::size_t c = 0; c < served.size(); ++c) {
+        EXPECT_EQ(a.caches[c].misses, b.caches[c].misses);
+        EXPECT_EQ(a.caches[c].accesses, b.caches[c].accesses);
+        EXPECT_FALSE(b.caches[c].classes);
+    }
+}
+
+TEST(Replay, CachesOfMoreWaysThanAFamilyServesAgreeWithAList) {
+    const Searched traced(3000, 150, 20);
+    const std::vector<std::uint32_t> order = shuffled_queries(150, 3);
+    const std::vector<cachesim::CacheConfig> caches{{4 * 40 * 128, 128, 40}, {2 * 33 * 64, 64, 33}, {33 * 128, 128, 33},
+                                                    {4096, 128, 8}};
+    EXPECT_FALSE(family_serves(caches[0]));
+    EXPECT_TRUE(family_serves(caches[3]));
+    EXPECT_TRUE(family_serves({4096, 128, 32}));
+    EXPECT_TRUE(family_serves({4096, 128, 0}));
+    const ReplayConfig config{caches, true};
+    const WalkStore walks = traced.walks();
+    const Replayed replayed = replay(walks, {}, order, config, count_revisits(walks, {}, config));
+    for (std::size_t c = 0; c < caches.size(); ++c) {
+        const auto lines = traced.lines_of(order, caches[c].line_bytes);
+        EXPECT_EQ(replayed.caches[c].accesses, lines.size());
+        EXPECT_EQ(replayed.caches[c].misses, misses_of_a_list(lines, caches[c].sets(), caches[c].ways)) << c;
+        EXPECT_EQ(replayed.caches[c].classes.has_value(), family_serves(caches[c]));
+    }
+    const ReplayConfig alone{{caches[0]}, false};
+    EXPECT_TRUE(count_revisits(walks, {}, alone).empty());
+    EXPECT_EQ(replay(walks, {}, order, alone, {}).caches[0].misses, replayed.caches[0].misses);
+}
+
+TEST(Replay, RevisitsOfMoreCachesServeFewer) {
+    const Searched traced(2000, 200, 10);
+    const std::vector<std::uint32_t> order = shuffled_queries(200, 5);
+    const WalkStore walks = traced.walks();
+    const Revisits all = count_revisits(walks, {}, {served, true});
+    for (const cachesim::CacheConfig& cache : {cachesim::CacheConfig{4096, 128, 8}, cachesim::CacheConfig{1024, 64, 1},
+                                               cachesim::CacheConfig{128 * 16, 16, 0}}) {
+        for (const bool classes : {false, true}) {
+            const ReplayConfig config{{cache}, classes};
+            EXPECT_TRUE(serve(all, config));
+            const Replayed fewer = replay(walks, {}, order, config, all);
+            const Replayed own = replay(walks, {}, order, config, count_revisits(walks, {}, config));
+            EXPECT_EQ(fewer.caches[0].misses, own.caches[0].misses);
+            EXPECT_EQ(fewer.caches[0].classes, own.caches[0].classes);
+        }
+    }
+}
+
+TEST(Replay, RevisitsOfOtherCachesDoNotServe) {
+    const Searched searched(100, 10, 5);
+    const WalkStore walks = searched.walks();
+    const std::vector<cachesim::CacheConfig> caches{{4096, 128, 8}, {2048, 64, 0}};
+    const Revisits found = count_revisits(walks, {}, {caches, false});
+    const auto serves = [&](const cachesim::CacheConfig& cache, bool classes) {
+        return serve(found, ReplayConfig{.caches = {cache}, .classes = classes});
+    };
+    EXPECT_TRUE(serves({4096, 128, 8}, false));
+    EXPECT_TRUE(serves({512, 128, 1}, false));       // 4 sets, too
+    EXPECT_TRUE(serves({4 * 40 * 64, 64, 40}, false));  // simulated for itself
+    EXPECT_FALSE(serves({4096, 128, 8}, true));      // no classes
+    EXPECT_FALSE(serves({8192, 128, 16}, false));    // more ways
+    EXPECT_FALSE(serves({8192, 128, 8}, false));     // other sets
+    EXPECT_FALSE(serves({4096, 32, 0}, false));      // another line
+    EXPECT_FALSE(serve({}, {.caches = caches, .classes = false}));
+    EXPECT_TRUE(serve({}, {}));
+}
+
+TEST(Replay, RevisitsDoNotDependOnTheThreads) {
+    // More than a range of 4096 queries for each of them.
+    const Searched traced(300, 20'000, 3);
+    const WalkStore walks = traced.walks();
+    const ReplayConfig config{served, true};
+    const auto counted_by = [&](std::size_t threads) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        return count_revisits(walks, {}, config);
+    };
+    const Revisits one = counted_by(1);
+    EXPECT_EQ(counted_by(2), one);
+    EXPECT_EQ(counted_by(4), one);
+    EXPECT_EQ(counted_by(2), one);
+    EXPECT_EQ(one.size(), 4u);  // lines of 8, 16, 64 and 128 bytes
+    for (const auto& [line_bytes, counts] : one) EXPECT_EQ(counts.compulsory, 0u);
+}
+
 TEST(Replay, ADamagedWalkIsRefusedByTheQuerysNumber) {
-    Traced traced(1000, 50, 10);
+    Searched traced(1000, 50, 10);
     std::uint64_t start = 0;
     for (int q = 0; q < 30; ++q) start += traced.recording.walk_bytes[static_cast<std::size_t>(q)];
     for (std::uint32_t b = 0; b < traced.recording.walk_bytes[30]; ++b) traced.recording.walks[start + b] = 0;
-    const std::vector<std::uint32_t> order = shuffled(50, 1);
+    const std::vector<std::uint32_t> order = shuffled_queries(50, 1);
     try {
         replay(traced.walks(), {}, order, {});
         FAIL();
@@ -172,7 +244,7 @@ TEST(Replay, ADamagedWalkIsRefusedByTheQuerysNumber) {
 }
 
 TEST(Replay, NoQueriesNoTraffic) {
-    const Traced traced(10, 0, 3);
+    const Searched traced(10, 0, 3);
     const cachesim::CacheConfig cache{};
     EXPECT_EQ(replay(traced.walks(), {}, {}, std::span(&cache, 1)).caches[0].traffic_bytes, 0u);
     EXPECT_EQ(compulsory_bytes(touched_nodes(traced.walks()), {}, 128), 0u);
