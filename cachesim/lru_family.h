@@ -52,7 +52,7 @@ private:
 
 class LruFamily {
 public:
-    /// Throws trace::UsageError for a level that is not as above. At most 2^27 different lines.
+    /// Throws trace::UsageError for a level that is not as above. At most 2^26 different lines.
     explicit LruFamily(const FamilyConfig& config);
     ~LruFamily();
     LruFamily(LruFamily&&) noexcept;

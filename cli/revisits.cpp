@@ -28,7 +28,8 @@ void write_revisits(const std::filesystem::path& path, const replay::Revisits& r
 replay::Revisits read_revisits(const std::filesystem::path& path) {
     try {
         replay::Revisits revisits;
-        for (const json& line : json::parse(trace::read_file(path))) {
+        const json root = json::parse(trace::read_file(path));
+        for (const json& line : root.get_ref<const json::array_t&>()) {
             cachesim::FamilyCounts& counts = revisits[line.at("line_bytes").get<std::uint32_t>()];
             line.at("accesses").get_to(counts.accesses);
             line.at("by_distance").get_to(counts.by_distance);

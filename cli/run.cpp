@@ -176,8 +176,11 @@ void add_run(CLI::App& app) {
         }
 
         std::vector<results::Row> rows;
-        for (const fs::path& part : parts) {
-            const std::vector<results::Row> some = results::read_csv(part);
+        for (std::size_t t = 0; t < parts.size(); ++t) {
+            const std::vector<results::Row> some = results::read_csv(parts[t]);
+            if (some.size() != experiment.trials[t].caches.size())
+                throw trace::DataError(fmt::format("{}: found {} rows, expected {}, one a cache; delete it", parts[t].string(),
+                                                   some.size(), experiment.trials[t].caches.size()));
             rows.insert(rows.end(), some.begin(), some.end());
         }
         results::fill_net_benefit(rows);

@@ -35,7 +35,7 @@ std::map<std::uint32_t, FamilyConfig> families(const ReplayConfig& config) {
         cachesim::check(cache);
         if (!family_serves(cache)) continue;
         FamilyConfig& family =
-            by_line.try_emplace(cache.line_bytes, FamilyConfig{.distances = config.classes, .conflicts = config.classes})
+            by_line.try_emplace(cache.line_bytes, FamilyConfig{.levels = {}, .distances = config.classes, .conflicts = config.classes})
                 .first->second;
         if (cache.ways == cachesim::fully_associative) {
             family.distances = true;

@@ -311,6 +311,41 @@ TEST(LruFamily, WalksOutlastTheirStamps) {
         EXPECT_EQ(bare.counts().levels[l].misses, few.counts().levels[l].misses);
 }
 
+TEST(LruFamily, MoreLinesThanStampsInAnEndlessCircle) {
+    // 100,000 lines round and round: the next one is always the oldest, so all are missed or, with one line more, none.
+    constexpr std::uint64_t number = 100'000, rounds = 4;
+    for (const std::uint64_t base : {std::uint64_t{0}, std::uint64_t{1} << 40}) {
+        LruFamily family({.levels = {{1, 32}, {1024, 32}, {std::uint64_t{1} << 17, 1}}, .stamps = 1});
+        std::vector<Line> lines;
+        for (std::uint64_t i = 0; i < number; ++i) lines.push_back(Line{base + i});
+        for (std::uint64_t round = 0; round < rounds; ++round) family.access(lines);
+        const FamilyCounts& counts = family.counts();
+        EXPECT_EQ(counts.full_misses(number - 1), rounds * number);
+        EXPECT_EQ(counts.full_misses(number), number);
+        EXPECT_EQ(counts.misses(1, 32), rounds * number);
+        EXPECT_EQ(counts.misses(1024, 32), rounds * number);  // 97 or 98 lines a set
+        EXPECT_EQ(counts.misses(std::uint64_t{1} << 17, 1), number);
+        EXPECT_EQ(counts.conflicts(1024, 32), 0u);
+    }
+}
+
+TEST(LruFamily, WalksOfManyThousandLines) {
+    Scatter scatter(17);
+    for (const std::uint64_t base : {std::uint64_t{0}, std::uint64_t{1} << 40}) {
+        LruFamily first({.levels = levels}), again({.levels = levels}), whole({.levels = levels});
+        for (int w = 0; w < 3; ++w) {
+            std::vector<Line> walk;
+            for (int i = 0; i < 7000; ++i) walk.push_back(Line{base + scatter.below(6000)});
+            access_first(first, walk);
+            again.revisit(walk);
+            whole.access(walk);
+        }
+        FamilyCounts sum = first.counts();
+        sum += again.counts();
+        EXPECT_EQ(sum, whole.counts());
+    }
+}
+
 TEST(LruFamily, RefusesImpossibleLevels) {
     EXPECT_THROW(LruFamily({.levels = {{3, 1}}}), trace::UsageError);
     EXPECT_THROW(LruFamily({.levels = {{0, 1}}}), trace::UsageError);

@@ -49,8 +49,6 @@ TEST(Revisits, AFileThatIsSomethingElseIsRefusedByName) {
          {"{}", "null", "7", "\"text\"", "[7]", "[{}]", R"([{"line_bytes": 8}])",
           R"([{"line_bytes": "8", "accesses": 1, "by_distance": [], "levels": []}])",
           R"([{"line_bytes": 8, "accesses": 1, "by_distance": ["many"], "levels": []}])",
-          R"([{"line_bytes": 8, "accesses": -1, "by_distance": [], "levels": []}])",
-          R"([{"line_bytes": 8, "accesses": 1, "by_distance": [2.5], "levels": []}])",
           R"([{"line_bytes": 8, "accesses": 1, "by_distance": [], "levels": [{"sets": 1}]}])"})
         refused(text);
     fs::remove(path);

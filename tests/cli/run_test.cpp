@@ -150,12 +150,17 @@ TEST_F(Run, AnotherCaptureNeedsForce) {
 TEST_F(Run, ADamagedPartIsRefusedByName) {
     expect_done(words());
     const fs::path part = parts().front();
-    write(part, content(part).substr(0, content(part).size() / 2));
-    expect_refused(bad_data, {"chart", part.string(), "-o", (scratch_ / "charts").string()},
-                   {part.filename().string()});
-    const Outcome outcome = regather(words());
-    EXPECT_EQ(outcome.exit_code, bad_data);
-    EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr(part.filename().string()), HasSubstr("line")));
+    const std::string name = part.filename().string(), whole = content(part);
+    const std::size_t header = whole.find('\n') + 1, row = whole.find('\n', header) + 1;
+    // Within the header, after it, within the first row, after that, and within the last.
+    for (const std::size_t length : {header / 2, header, (header + row) / 2, row, whole.size() - 20}) {
+        write(part, whole.substr(0, length));
+        const Outcome outcome = regather(words());
+        EXPECT_EQ(outcome.exit_code, bad_data) << length;
+        EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr(name), HasSubstr("expected"))) << length;
+    }
+    write(part, whole.substr(0, (header + row) / 2));
+    expect_refused(bad_data, {"chart", part.string(), "-o", (scratch_ / "charts").string()}, {name, "line"});
 }
 
 TEST_F(Run, WhatNoOrderChangesIsKeptAndUsedAgain) {

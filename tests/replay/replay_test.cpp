@@ -104,7 +104,7 @@ TEST(Replay, MoreWaysAtEqualSetsNeverMissMore) {
 
 const std::vector<cachesim::CacheConfig> served{{4096, 128, 8},    {2048, 64, 2},  {2048, 128, 1},  {1024, 16, 32},
                                                 {65536, 64, 4},    {3072, 64, 3},  {16384, 128, 0}, {3000, 8, 0},
-                                                {1 << 20, 128, 16}, {8192, 128, 4}, {64, 64, 1}};
+                                                {1 << 20, 128, 16}, {8192, 128, 4}, {64, 64, 1},  {512, 128, 1}};
 
 TEST(Replay, ClassesAreHillsOfEveryAccess) {
     const Searched traced(3000, 150, 20);
