@@ -28,12 +28,26 @@ using cachesim::FamilyCounts;
 constexpr std::uint32_t max_family_ways = 32;
 constexpr std::uint64_t max_family_sets = std::uint64_t{1} << 24;
 
+/// Simulated for itself: what no family serves, and one or two set-associative caches of a line size when nobody asks for
+/// classes, which take less time than the pass for all. (Below 16 sets one cache is slow; see set_engine.cpp.)
+bool alone(const CacheConfig& cache, const ReplayConfig& config) {
+    if (!family_serves(cache)) return true;
+    if (config.classes) return false;
+    std::size_t beside = 0;
+    for (const CacheConfig& other : config.caches) {
+        if (other.line_bytes != cache.line_bytes || !family_serves(other)) continue;
+        if (other.ways == cachesim::fully_associative || other.sets() < 16) return false;
+        ++beside;
+    }
+    return beside <= 2;
+}
+
 /// The families that serve a configuration's caches, by line size.
 std::map<std::uint32_t, FamilyConfig> families(const ReplayConfig& config) {
     std::map<std::uint32_t, FamilyConfig> by_line;
     for (const CacheConfig& cache : config.caches) {
         cachesim::check(cache);
-        if (!family_serves(cache)) continue;
+        if (alone(cache, config)) continue;
         FamilyConfig& family =
             by_line.try_emplace(cache.line_bytes, FamilyConfig{.levels = {}, .distances = config.classes, .conflicts = config.classes})
                 .first->second;
@@ -69,9 +83,10 @@ public:
         family_->access_first(first.lines, first.last_rank);
     }
 
-    CacheTraffic traffic(const CacheConfig& config, bool classes, const Revisits& revisits) {
+    CacheTraffic traffic(const CacheConfig& config, const ReplayConfig& all, const Revisits& revisits) {
+        const bool classes = all.classes;
         CacheTraffic found{.config = config, .accesses = accesses_, .misses = 0, .traffic_bytes = 0, .classes = {}, .error = {}};
-        if (family_serves(config)) {
+        if (!alone(config, all)) {
             const FamilyCounts &first = family_->counts(), &again = revisits.at(config.line_bytes);
             const std::uint64_t sets = config.sets();
             const bool full = config.ways == cachesim::fully_associative;
@@ -179,7 +194,7 @@ Replayed replay(const WalkStore& walks, const HeapLayout& layout, std::span<cons
     };
     for (const auto& [line_bytes, family] : families(config)) size_of(line_bytes).add_family(family);
     for (const CacheConfig& cache : config.caches)
-        if (!family_serves(cache)) size_of(cache.line_bytes).add_cache(cache);
+        if (alone(cache, config)) size_of(cache.line_bytes).add_cache(cache);
 
     Replayed result;
     result.visited_nodes = run_walks(walks, permutation, progress, [&](std::span<const std::uint32_t> slots) {
@@ -187,7 +202,7 @@ Replayed replay(const WalkStore& walks, const HeapLayout& layout, std::span<cons
     });
     result.raw_bytes = result.visited_nodes * layout.used_bytes;
     for (const CacheConfig& cache : config.caches)
-        result.caches.push_back(size_of(cache.line_bytes).traffic(cache, config.classes, revisits));
+        result.caches.push_back(size_of(cache.line_bytes).traffic(cache, config, revisits));
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
 }
