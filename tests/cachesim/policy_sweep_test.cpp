@@ -6,7 +6,7 @@
 #include <rapidcheck.h>
 #include <tbb/global_control.h>
 
-#include "cachesim/sweep.h"
+#include "cachesim/cache.h"
 #include "tests/cachesim/brute_force.h"
 #include "trace/error.h"
 
@@ -196,25 +196,76 @@ TEST(PolicySweep, PassesTheBytesWrittenOnEachLine) {
     EXPECT_EQ(rows[1].stats, (PolicyStats{4, 3, 1, 1, 2, 3 + 2}));  // line 1 is held
 }
 
-/// One access at a time for the classes, batch by batch without them, and the sweep of LRU caches alone.
-TEST(PolicySweep, LruCountsAreThoseOfTheLruSweep) {
+/// One access at a time for the classes, batch by batch without them, and each LruCache by itself.
+TEST(PolicySweep, LruCountsAreThoseOfEachLruCacheByItself) {
     const std::vector<CacheConfig> geometries{
         {4096, 64, 4}, {16384, 64, 8}, {4096, 64, fully_associative}, {2048, 32, 1}, {6144, 32, 3}};
     std::vector<PolicyConfig> configs;
     for (const CacheConfig& geometry : geometries) configs.push_back({geometry});
     const std::vector<ByteAccess> accesses = scattered_accesses(2, 60'000);
-    Sweep sweep(geometries);
-    sweep.access(accesses);
-    sweep.flush();
+    std::vector<CacheStats> alone;
+    for (const CacheConfig& geometry : geometries) {
+        LruCache cache(geometry);
+        for (const ByteAccess& access : accesses) {
+            std::vector<Line> lines;
+            append_lines(lines, access.address, access.bytes, geometry.line_bytes);
+            cache.access(lines, trace::Region::other, access.kind);
+        }
+        cache.flush();
+        alone.push_back(cache.total());
+    }
     for (const bool classes : {true, false}) {
         const auto rows = rows_of(configs, accesses, {classes, 0});
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            const CacheStats expected = sweep.caches()[i].total();
+            const CacheStats& expected = alone[i];
             EXPECT_EQ(rows[i].stats, (PolicyStats{expected.accesses, expected.misses, expected.misses,
                                                   expected.writebacks, 0, 0}));
             EXPECT_EQ(rows[i].classes.has_value(), classes);
         }
     }
+}
+
+TEST(PolicySweep, LruCountsAreThoseOfListsByteByByte) {
+    const CacheConfig geometries[] = {{16 * 1024, 64, 8}, {4 * 1024, 32, 1},  {16 * 1024, 64, fully_associative},
+                                      {1024, 1, 4},       {12 * 1024, 64, 3}, {16 * 1024, 64, 8}};
+    std::vector<PolicyConfig> configs;
+    for (const CacheConfig& geometry : geometries) configs.push_back({geometry});
+    for (const bool write_some : {false, true}) {
+        Scatter scatter(3);
+        std::vector<ByteAccess> accesses(50'000);
+        for (ByteAccess& access : accesses)
+            access = {scatter.below(1 + scatter.below(1 << 16)), 1 + scatter.below(100),
+                      write_some && scatter.below(4) == 0 ? Access::write : Access::read};
+        const auto rows = rows_of(configs, accesses, {false, 0});
+        ASSERT_EQ(rows.size(), std::size(geometries));
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            BruteForceLru list(geometries[i]);
+            for (const ByteAccess& access : accesses)
+                for (std::uint64_t byte = access.address, line = ~std::uint64_t{0};
+                     byte < access.address + access.bytes; ++byte)
+                    if (byte / geometries[i].line_bytes != line) {
+                        line = byte / geometries[i].line_bytes;
+                        list.access(Line{line}, trace::Region::other, access.kind);
+                    }
+            list.flush();
+            const CacheStats& expected = list.stats[static_cast<std::size_t>(trace::Region::other)];
+            EXPECT_EQ(rows[i].stats.accesses, expected.accesses) << "cache " << i;
+            EXPECT_EQ(rows[i].stats.misses, expected.misses) << "cache " << i;
+            EXPECT_EQ(rows[i].stats.writebacks, expected.writebacks) << "cache " << i;
+        }
+    }
+}
+
+TEST(PolicySweep, ALongAccessTouchesEveryLine) {
+    const PolicyConfig configs[] = {{{1024, 1, 1}}, {{1024, 128, 1}}};
+    const auto rows = rows_of(configs, std::vector{ByteAccess{64, 1'000'000, Access::write}}, {false, 0});
+    EXPECT_EQ(rows[0].stats, (PolicyStats{1'000'000, 1'000'000, 1'000'000, 1'000'000, 0, 0}));
+    EXPECT_EQ(rows[1].stats, (PolicyStats{7813, 7813, 7813, 7813, 0, 0}));  // bytes 64 to 1,000,063: lines 0 to 7812
+}
+
+TEST(PolicySweep, AnImpossibleGeometryIsRefused) {
+    const PolicyConfig configs[] = {{{1024, 64, 1}}, {{1000, 64, 1}}};
+    EXPECT_THROW(PolicySweep sweep(configs), trace::UsageError);
 }
 
 TEST(PolicySweep, CountsDoNotDependOnThreadsOrOnTheOrderAskedFor) {
