@@ -1,13 +1,9 @@
 #include "replay/replay.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cassert>
 #include <chrono>
 #include <string_view>
@@ -132,12 +128,11 @@ Revisits count_revisits(const WalkStore& walks, const HeapLayout& layout, const 
                         const QueriesDone& progress) {
     const std::map<std::uint32_t, FamilyConfig> by_line = families(config);
     struct Part {
-        spatial::WalkDecoder decoder;
         std::vector<WalkLines> lines;
         std::vector<cachesim::LruFamily> families;
     };
     tbb::enumerable_thread_specific<Part> parts([&] {
-        Part part{spatial::WalkDecoder(walks.photons()), {}, {}};
+        Part part;
         for (const auto& [line_bytes, family] : by_line) {
             part.lines.emplace_back(layout, line_bytes, walks.photons());
             part.families.emplace_back(family);
@@ -145,17 +140,8 @@ Revisits count_revisits(const WalkStore& walks, const HeapLayout& layout, const 
         return part;
     });
     if (by_line.empty()) return {};
-    std::atomic<std::uint64_t> done = 0;
-    tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, walks.queries(), 4096), [&](const auto& range) {
-        Part& part = parts.local();
-        for (std::uint64_t q = range.begin(); q != range.end(); ++q) {
-            const spatial::WalkDecoder::Visits visits = part.decoder.decode(walks.walk(q));
-            if (visits.fault != spatial::WalkFault::none) refuse_walk(q, visits.fault);
-            for (std::size_t f = 0; f < part.families.size(); ++f)
-                part.families[f].revisit(part.lines[f].touches(visits.slots));
-        }
-        done += range.size();
-        if (progress) progress(done);
+    run_all_walks(walks, parts, progress, [](Part& part, std::span<const std::uint32_t> slots) {
+        for (std::size_t f = 0; f < part.families.size(); ++f) part.families[f].revisit(part.lines[f].touches(slots));
     });
     Revisits sum;
     std::size_t f = 0;
@@ -208,25 +194,15 @@ Replayed replay(const WalkStore& walks, const HeapLayout& layout, std::span<cons
 }
 
 std::vector<bool> touched_nodes(const WalkStore& walks) {
-    const std::size_t slots = std::size_t{walks.photons()} + 1;
-    struct Part {
-        spatial::WalkDecoder decoder;
-        std::vector<bool> touched;
-    };
-    tbb::enumerable_thread_specific<Part> parts(
-        [&] { return Part{spatial::WalkDecoder(walks.photons()), std::vector<bool>(slots)}; });
-    tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, walks.queries(), 4096), [&](const auto& range) {
-        Part& part = parts.local();
-        for (std::uint64_t q = range.begin(); q != range.end(); ++q) {
-            const spatial::WalkDecoder::Visits visits = part.decoder.decode(walks.walk(q));
-            if (visits.fault != spatial::WalkFault::none) refuse_walk(q, visits.fault);
-            for (const std::uint32_t slot : visits.slots) part.touched[slot] = true;
-        }
+    const std::size_t nodes = std::size_t{walks.photons()} + 1;
+    tbb::enumerable_thread_specific<std::vector<bool>> parts([&] { return std::vector<bool>(nodes); });
+    run_all_walks(walks, parts, {}, [](std::vector<bool>& touched, std::span<const std::uint32_t> slots) {
+        for (const std::uint32_t slot : slots) touched[slot] = true;
     });
-    std::vector<bool> touched(slots);
-    for (const Part& part : parts)
-        for (std::size_t s = 0; s < slots; ++s)
-            if (part.touched[s]) touched[s] = true;
+    std::vector<bool> touched(nodes);
+    for (const std::vector<bool>& part : parts)
+        for (std::size_t s = 0; s < nodes; ++s)
+            if (part[s]) touched[s] = true;
     return touched;
 }
 

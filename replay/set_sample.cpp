@@ -1,13 +1,9 @@
 #include "replay/set_sample.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 #include <chrono>
 #include <cmath>
@@ -64,10 +60,7 @@ LineUse count_line_use(const WalkStore& walks, const HeapLayout& layout, std::sp
         std::uint64_t first_line;
         std::vector<std::uint64_t> walks;
     };
-    struct Part {
-        spatial::WalkDecoder decoder;
-        std::vector<Size> sizes;
-    };
+    using Part = std::vector<Size>;
     LineUse use;
     for (const CacheConfig& cache : caches) {
         const std::uint64_t first = layout.base / cache.line_bytes;
@@ -76,27 +69,19 @@ LineUse count_line_use(const WalkStore& walks, const HeapLayout& layout, std::sp
         use[cache.line_bytes].resize(last - first + 1);
     }
     tbb::enumerable_thread_specific<Part> parts([&] {
-        Part part{spatial::WalkDecoder(walks.photons()), {}};
+        Part part;
         for (const auto& [line_bytes, counts] : use)
-            part.sizes.push_back({WalkLines(layout, line_bytes, walks.photons()), layout.base / line_bytes,
-                                  std::vector<std::uint64_t>(counts.size())});
+            part.push_back({WalkLines(layout, line_bytes, walks.photons()), layout.base / line_bytes,
+                            std::vector<std::uint64_t>(counts.size())});
         return part;
     });
-    std::atomic<std::uint64_t> done = 0;
-    tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, walks.queries(), 4096), [&](const auto& range) {
-        Part& part = parts.local();
-        for (std::uint64_t q = range.begin(); q != range.end(); ++q) {
-            const spatial::WalkDecoder::Visits visits = part.decoder.decode(walks.walk(q));
-            if (visits.fault != spatial::WalkFault::none) refuse_walk(q, visits.fault);
-            for (Size& size : part.sizes)
-                for (const Line line : size.lines.first(size.lines.touches(visits.slots)).lines)
-                    ++size.walks[static_cast<std::uint64_t>(line) - size.first_line];
-        }
-        done += range.size();
-        if (progress) progress(done);
+    run_all_walks(walks, parts, progress, [](Part& part, std::span<const std::uint32_t> slots) {
+        for (Size& size : part)
+            for (const Line line : size.lines.first(size.lines.touches(slots)).lines)
+                ++size.walks[static_cast<std::uint64_t>(line) - size.first_line];
     });
     for (const Part& part : parts)
-        for (const Size& size : part.sizes) {
+        for (const Size& size : part) {
             std::vector<std::uint64_t>& sum = use[size.lines.line_bytes()];
             for (std::size_t l = 0; l < sum.size(); ++l) sum[l] += size.walks[l];
         }

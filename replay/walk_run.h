@@ -1,5 +1,10 @@
 // replay/walk_run.h -- goes through walks in an order: decodes each, with what comes next on its way into the cache.
 #pragma once
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
 #include <cstdint>
 #include <span>
 
@@ -34,6 +39,25 @@ std::uint64_t run_walks(const WalkStore& walks, std::span<const std::uint32_t> p
     }
     if (progress) progress(permutation.size());
     return visited;
+}
+
+/// Calls visit(part, slots) for the walk of every query, on all cores in any order: each thread has a Part of its own.
+template <class Part, class Visit>
+void run_all_walks(const WalkStore& walks, tbb::enumerable_thread_specific<Part>& parts, const QueriesDone& progress,
+                   Visit&& visit) {
+    tbb::enumerable_thread_specific<spatial::WalkDecoder> decoders([&] { return spatial::WalkDecoder(walks.photons()); });
+    std::atomic<std::uint64_t> done = 0;
+    tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, walks.queries(), 4096), [&](const auto& range) {
+        spatial::WalkDecoder& decoder = decoders.local();
+        Part& part = parts.local();
+        for (std::uint64_t q = range.begin(); q != range.end(); ++q) {
+            const auto [fault, slots] = decoder.decode(walks.walk(q));
+            if (fault != spatial::WalkFault::none) refuse_walk(q, fault);
+            visit(part, slots);
+        }
+        done += range.size();
+        if (progress) progress(done);
+    });
 }
 
 }  // namespace regather::replay
