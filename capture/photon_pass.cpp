@@ -35,7 +35,7 @@ class Tracer {
 public:
     Tracer(const Scene& scene, const RayCaster& caster, std::uint64_t seed)
         : scene_(scene), caster_(caster), seed_(seed) {
-        for (const scenes::RectangleLight& light : scene.lights) {
+        for (const scenes::AreaLight& light : scene.lights) {
             const Vec3 power = light.power();
             total_ += static_cast<double>(power.x) + power.y + power.z;
             cumulative_.push_back(total_);
@@ -60,7 +60,7 @@ private:
         const double pick = static_cast<double>(sampler.uniform()) * total_;
         const auto after = std::upper_bound(cumulative_.begin(), cumulative_.end(), pick);
         const auto chosen = std::min(static_cast<std::size_t>(after - cumulative_.begin()), cumulative_.size() - 1);
-        const scenes::RectangleLight& light = scene_.lights[chosen];
+        const scenes::AreaLight& light = scene_.lights[chosen];
         const double share = (cumulative_[chosen] - (chosen == 0 ? 0 : cumulative_[chosen - 1])) / total_;
 
         const float u = sampler.uniform(), v = sampler.uniform(), s = sampler.uniform(), t = sampler.uniform();

@@ -189,7 +189,7 @@ private:
         const Strata strata(rays);
         const Vec3 origin = caster_.offset(at.position, at.side);
         for (std::size_t l = 0; l < scene_.lights.size(); ++l) {
-            const scenes::RectangleLight& light = scene_.lights[l];
+            const scenes::AreaLight& light = scene_.lights[l];
             const Vec3 light_normal = light.normal();
             const float share = light.area() / static_cast<float>(rays);
             Sampler sampler(pass_.config_.seed, Stream::shadow, pixel_,

@@ -39,7 +39,7 @@ std::string materials_of(const Scene& scene) {
 
 Vec3 total_power(const Scene& scene) {
     Vec3 power;
-    for (const scenes::RectangleLight& light : scene.lights) power += light.power();
+    for (const scenes::AreaLight& light : scene.lights) power += light.power();
     return power;
 }
 
@@ -101,7 +101,7 @@ void print_details(const std::string& name_or_path) {
     if (scene.lights.empty()) return;
     fmt::print("\nlights\n");
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        const scenes::RectangleLight& light = scene.lights[i];
+        const scenes::AreaLight& light = scene.lights[i];
         line(fmt::format("  {}", i),
              fmt::format("{:.4g} m^2 at {} m, facing {}, radiance {} W/(m^2 sr)", light.area(),
                          in_words(light.corner), in_words(light.normal()), in_words(light.radiance)));

@@ -249,7 +249,7 @@ private:
         const Kind& kind = light_kind();
         node.check_object(kind);
         const Quad quad = read_quad(node, kind);
-        RectangleLight light{quad.corner, quad.edge_u, quad.edge_v, {}};
+        AreaLight light{quad.corner, quad.edge_u, quad.edge_v, {}};
         if (node.has("radiance") == node.has("power"))
             node.fail(node.has("power") ? "both radiance and power" : "neither radiance nor power",
                       "exactly one of them");

@@ -37,7 +37,7 @@ std::string describe(const Use& use, std::string_view kinds) {
 
 bool is_lit_from_an_area(const Scene& scene) {
     return std::any_of(scene.lights.begin(), scene.lights.end(),
-                       [](const RectangleLight& light) { return light.area() > 0; });
+                       [](const AreaLight& light) { return light.area() > 0; });
 }
 
 }  // namespace

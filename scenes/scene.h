@@ -1,4 +1,4 @@
-// scenes/scene.h -- a scene in memory: triangles, materials, rectangular area lights and a pinhole camera.
+// scenes/scene.h -- a scene in memory: triangles, materials, area lights and a pinhole camera with its path.
 // Lengths in metres, light in watts: radiance [W / (m^2 sr)], power [W], per RGB channel.
 // The JSON form is documented in docs/scene_format.md; scenes/loader.h reads it.
 #pragma once
@@ -27,18 +27,29 @@ struct Material {
     float index_of_refraction = 1.5f;  ///< Inside / outside (dielectric), >= 1. Outside: against the triangle's winding.
 };
 
-/// Emits `radiance` evenly, Lambertian, on the side of cross(edge_u, edge_v). Its two triangles are in the scene too.
-struct RectangleLight {
-    Vec3 corner, edge_u, edge_v;
-    Vec3 radiance;  ///< [W / (m^2 sr)]
-    Vec3 normal() const { return trace::normalize(cross(edge_u, edge_v)); }
-    float area() const { return trace::length(cross(edge_u, edge_v)); }  ///< [m^2]
+/// Emits `radiance` evenly, Lambertian, on the outside of its triangles, which are in the scene, too. A rectangle (any
+/// parallelogram) emits on the side of cross(edge_u, edge_v); a mesh light is the run of triangles that it names.
+struct AreaLight {
+    Vec3 corner, edge_u, edge_v;  ///< Of a rectangle; zero for a mesh.
+    Vec3 radiance;                ///< [W / (m^2 sr)]
+    std::uint32_t first_triangle = 0, triangle_count = 0;  ///< Of a mesh: its triangles; a rectangle says 0, 0.
+    float mesh_area = 0;                                   ///< Of a mesh: the sum over its triangles [m^2].
+
+    bool is_mesh() const { return triangle_count > 0; }
+    Vec3 normal() const { return trace::normalize(cross(edge_u, edge_v)); }  ///< Of a rectangle.
+    float area() const { return is_mesh() ? mesh_area : trace::length(cross(edge_u, edge_v)); }  ///< [m^2]
     Vec3 power() const { return radiance * (3.14159265358979f * area()); }  ///< [W]: pi A L.
 };
 
 struct Camera {
     Vec3 position, target, up{0, 0, 1};
     float vertical_fov_degrees = 60;
+};
+
+/// A point of a camera path. Between key frames the camera moves smoothly: scenes/camera_path.h.
+struct KeyFrame {
+    std::uint32_t frame = 0;
+    Vec3 position, target, up{0, 0, 1};
 };
 
 /// Triangle t has vertices[triangles[t][0..2]]; counter-clockwise seen from outside (the side its normal points to).
@@ -50,8 +61,12 @@ struct Scene {
     std::vector<std::uint32_t> triangle_material;  ///< Index into materials.
     std::vector<std::int32_t> triangle_light;      ///< Index into lights, -1 for none.
     std::vector<Material> materials;
-    std::vector<RectangleLight> lights;
+    std::vector<AreaLight> lights;
     Camera camera;
+    std::vector<KeyFrame> camera_path;  ///< By rising frame, the first is 0; empty: the camera stands still.
+    std::uint32_t frames = 1;           ///< Of the camera path.
+    std::string origin, licence;        ///< Where the scene is from; empty when it does not say.
+    std::array<double, 3> recentred_by{};  ///< [m] Taken off all coordinates of the file, for the sake of floats.
     std::uint64_t degenerate_faces_dropped = 0;  ///< Faces of mesh files without area, left out.
 
     Bounds3 bounds() const { return trace::bounds_of(vertices); }

@@ -118,7 +118,7 @@ TEST(Embedded, TheFurnaceEmitsEvenlyFromAllOfItsTriangles) {
     EXPECT_EQ(furnace.triangles.size(), 12u);
     ASSERT_EQ(furnace.lights.size(), 6u);
     for (const std::int32_t light : furnace.triangle_light) EXPECT_GE(light, 0);
-    for (const RectangleLight& light : furnace.lights) {
+    for (const AreaLight& light : furnace.lights) {
         EXPECT_EQ(light.radiance, (Vec3{1, 1, 1}));
         // Inward: towards the middle of the box.
         EXPECT_GT(dot(light.normal(), Vec3{0.5f, 0.5f, 0.5f} - light.corner), 0);
