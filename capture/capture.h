@@ -23,10 +23,19 @@ struct Columns {
 };
 // Ray columns of kinds that the scene has no need of (scenes/needs.h) are left out in any case.
 
+/// The caustic map: photons that specular surfaces, and nothing else, have turned between light and store (Jensen 2001,
+/// section 9.1: LS+D paths), gathered at every eye-visible surface. Not built for a scene without need of it.
+struct CausticConfig {
+    std::uint32_t photons = 200'000, k = 60;
+    float radius = std::numeric_limits<float>::infinity();  ///< [scene units]
+    Filter filter = Filter::cone;
+};
+
 struct CaptureConfig {
     QueryConfig pixels;
     PhotonConfig photon;
     GatherConfig gather;
+    CausticConfig caustic;
     Columns columns;
     /// Order of the searches within a batch of pixels; empty: capture order. It changes the time, not a bit of the result.
     std::function<std::vector<std::uint32_t>(const Queries&)> order;
@@ -34,8 +43,17 @@ struct CaptureConfig {
     std::function<void(std::string_view stage, std::uint64_t done, std::uint64_t total)> progress;
 };
 
+/// The image by the light's last turns. `specular` is all that the eye sees by way of a specular surface; the other three are
+/// seen straight: emitted or reflected once (direct), the caustic map, the global map. Their sum is the image.
+struct Layers {
+    Image direct, caustic, indirect, specular;
+    std::vector<float> variance;             ///< Of the pixel's mean luminance, from its eye rays; empty when there is only one.
+    std::vector<std::uint32_t> query_count;  ///< Photon gathers a pixel.
+};
+
 struct Captured {
     Image image;
+    Layers layers;
     trace::TraceInfo info;
     double photon_seconds = 0, tree_seconds = 0, query_seconds = 0, gather_seconds = 0, write_seconds = 0;
     std::uint64_t nonfinite_pixels = 0;  ///< Set to black and counted.

@@ -11,9 +11,15 @@
 
 namespace regather::capture {
 
+/// Weight of a photon by its distance (Jensen 2001, section 7.2.1): cone with constant k = 1.1, Gaussian with alpha = 0.918,
+/// beta = 1.953; each normalised to the weight of the whole disc.
+enum class Filter : std::uint8_t { none, cone, gaussian };
+
 struct GatherConfig {
     std::uint32_t k = 100;                                       ///< Photons of a gather; the paper, Table 1.
     float radius = std::numeric_limits<float>::infinity();       ///< Maximum radius of a search [scene units].
+    Filter filter = Filter::none;
+    bool surface_check = true;  ///< Photons of surfaces that face elsewhere (normals more than 60 degrees apart) are not used.
 };
 
 /// Row i belongs to query i, whatever the order of the searches.

@@ -9,11 +9,20 @@
 
 namespace regather::capture {
 
+/// What a non-specular surface that an eye path meets shows of the light that reaches it by way of other surfaces.
+enum class Visualisation : std::uint8_t {
+    final_gather,  ///< Equation 3: gather rays, and photon gathers where they end.
+    direct,        ///< Equation 2: one photon gather at the surface itself.
+};
+
 struct QueryConfig {
     std::uint32_t width = 512, height = 512;  ///< [pixels]
     std::uint32_t gather_rays = 100;          ///< N a pixel; the paper, Table 1.
     std::uint32_t shadow_rays = 16;           ///< Per light and shaded point; the paper, Table 2.
     std::uint32_t max_specular = 16;          ///< Specular surfaces in a row, then the path ends.
+    std::uint32_t samples = 1;                ///< Eye rays a pixel, stratified over it; a single one goes through its centre ...
+    bool jitter = false;                      ///< ... or anywhere in the pixel.
+    Visualisation visualisation = Visualisation::final_gather;
     std::uint64_t seed = 1;
 };
 
