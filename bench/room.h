@@ -24,11 +24,12 @@ struct Room {
     Room() {
         const scenes::Scene scene = scenes::load_scene("room");
         const capture::RayCaster caster(scene);
-        heap = spatial::left_balanced(capture::trace_photons(scene, caster, {.photons = photon_count, .seed = 1}).photons);
+        const capture::LightSampler lights(scene);
+        heap = spatial::left_balanced(capture::trace_photons(scene, caster, lights, {.photons = photon_count, .seed = 1}).photons);
         capture::PixelWork work;
         const capture::QueryConfig config{.width = 45, .height = 45, .gather_rays = 100, .shadow_rays = 0,
                                           .max_specular = 16, .seed = 1};
-        capture::QueryPass(scene, caster, config, false).run(0, 45 * 45, work);
+        capture::QueryPass(scene, caster, lights, config, {}).run(0, 45 * 45, work);
         queries = std::move(work.queries);
         recording = spatial::record_walks(spatial::PhotonKd(heap), queries.position, k,
                                           std::numeric_limits<float>::infinity());

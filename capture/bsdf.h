@@ -1,5 +1,7 @@
 // capture/bsdf.h -- how surfaces scatter light: Lambert, Lambert plus an energy-normalised Blinn-Phong lobe, perfect
 // mirrors, and smooth dielectrics. Directions have unit length and point away from the surface.
+// No result is infinite or not a number for unit vectors, exponents of 1 to 1e6 and indices of 1.0001 to 5: angles of lobes are
+// taken from sines in double precision, which do not cancel at their peaks.
 #pragma once
 #include "capture/sampler.h"
 #include "scenes/scene.h"
@@ -39,6 +41,16 @@ Vec3 reflect(Vec3 outgoing, Vec3 normal);  ///< Mirror direction of `outgoing`, 
 /// Refracted direction, pointing away on the far side; false at total internal reflection.
 bool refract(Vec3 outgoing, Vec3 normal, float eta, Vec3& refracted);
 
+/// Density [1/sr] with which sample_direction() finds `outgoing`: the cosine lobe and the half-vector lobe in proportion to the
+/// channels' mean albedos. Its integral over the hemisphere is 1 less the chance that no direction is found. 0 for specular
+/// and black materials, and when either direction is not above the surface.
+float scatter_pdf(const Material& material, Vec3 normal, Vec3 incoming, Vec3 outgoing);
+
+/// A direction by three numbers in [0, 1); `normal` on the side of `incoming`. False: none, which counts as no light (the
+/// half-vector lobe reaches below the horizon; specular and black materials have no lobe).
+bool sample_direction(const Material& material, Vec3 normal, Vec3 incoming, double choice, float u, float v,
+                      Vec3& direction);
+
 /// One sampled continuation of light that came along `incoming` (pointing away from the surface).
 struct Scatter {
     bool absorbed = true;
@@ -46,8 +58,8 @@ struct Scatter {
     Vec3 weight;     ///< Factor of the power that goes on, Russian roulette included.
 };
 
-/// Diffuse or glossy: lobe chosen in proportion to the channels' mean albedo, absorbed otherwise. `normal` on the side of
-/// `incoming`.
+/// Diffuse or glossy: goes on with the channels' mean albedo in a direction of sample_direction(), absorbed otherwise. The
+/// weight is below 4.4 times the largest ratio of a channel's albedo to the mean. `normal` on the side of `incoming`.
 Scatter scatter(const Material& material, Vec3 normal, Vec3 incoming, Sampler& sampler);
 
 }  // namespace regather::capture

@@ -4,24 +4,22 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "capture/film.h"
 #include "capture/gather_pass.h"
 #include "capture/image.h"
 #include "capture/photon_pass.h"
 #include "capture/query_pass.h"
+#include "capture/trace_columns.h"
 #include "trace/folder.h"
 
 namespace regather::capture {
-
-/// Which optional columns are stored.
-struct Columns {
-    bool rays = true, direction = true, leaf_kd = true, leaf_bvh = true;
-};
-// Ray columns of kinds that the scene has no need of (scenes/needs.h) are left out in any case.
 
 /// The caustic map: photons that specular surfaces, and nothing else, have turned between light and store (Jensen 2001,
 /// section 9.1: LS+D paths), gathered at every eye-visible surface. Not built for a scene without need of it.
@@ -37,26 +35,21 @@ struct CaptureConfig {
     GatherConfig gather;
     CausticConfig caustic;
     Columns columns;
+    std::set<std::string> keep;  ///< Parts that the scene has no need of (scenes/needs.h), kept all the same.
+    std::optional<std::uint32_t> frame;  ///< Of the camera path, for trace.json; the scene's camera is where it looks from.
     /// Order of the searches within a batch of pixels; empty: capture order. It changes the time, not a bit of the result.
     std::function<std::vector<std::uint32_t>(const Queries&)> order;
     /// Told after each step: stage, steps done, steps in all.
     std::function<void(std::string_view stage, std::uint64_t done, std::uint64_t total)> progress;
 };
 
-/// The image by the light's last turns. `specular` is all that the eye sees by way of a specular surface; the other three are
-/// seen straight: emitted or reflected once (direct), the caustic map, the global map. Their sum is the image.
-struct Layers {
-    Image direct, caustic, indirect, specular;
-    std::vector<float> variance;             ///< Of the pixel's mean luminance, from its eye rays; empty when there is only one.
-    std::vector<std::uint32_t> query_count;  ///< Photon gathers a pixel.
-};
-
 struct Captured {
     Image image;
     Layers layers;
     trace::TraceInfo info;
+    std::optional<trace::TraceInfo> caustic_info;  ///< Where there is a caustic map.
     double photon_seconds = 0, tree_seconds = 0, query_seconds = 0, gather_seconds = 0, write_seconds = 0;
-    std::uint64_t nonfinite_pixels = 0;  ///< Set to black and counted.
+    Nonfinite nonfinite;  ///< What was left out of the image and the maps.
 };
 
 /// XXH3-64 over everything in the scene that light can see, in hexadecimal.
@@ -65,8 +58,18 @@ std::string checksum(const Scene& scene);
 /// What a capture's trace.json says under "parameters": two captures with equal parameters have equal columns.
 nlohmann::json parameters(const Scene& scene, const CaptureConfig& config);
 
-/// Renders and, when `writer` is not null, writes the columns; the caller finishes the writer with Captured::info when all else
+/// Whether a capture builds a caustic map: the scene needs one or is made to keep one, and its photons are asked for. Without
+/// it, gather rays find what lights send by way of specular surfaces.
+bool has_caustic_map(const Scene& scene, const CaptureConfig& config);
+
+/// Where the columns go: each photon map has a trace of its own. Null: nowhere.
+struct TraceWriters {
+    trace::TraceWriter* global = nullptr;
+    trace::TraceWriter* caustic = nullptr;
+};
+
+/// Renders, and writes columns; the caller finishes the writers with Captured::info and caustic_info when all else
 /// that belongs to the capture is written. UsageError for a picture without pixels or of 2^32 queries or more.
-Captured capture(const Scene& scene, const CaptureConfig& config, trace::TraceWriter* writer);
+Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWriters& writers = {});
 
 }  // namespace regather::capture

@@ -5,9 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
-#include <numbers>
 
-#include "capture/bsdf.h"
 #include "spatial/nearest.h"
 #include "spatial/walk.h"
 
@@ -15,35 +13,6 @@ namespace regather::capture {
 namespace {
 
 constexpr std::size_t chunk_queries = 2048;
-
-/// Equation 2: sum over the found photons of f_r(x, w_p, w) x power / area, the area being the disc around them.
-Vec3 reflected_radiance(const spatial::PhotonKd& photons, const spatial::NearestSet& found, const Material& material,
-                        Vec3 normal, Vec3 to_viewer) {
-    const float radius2 = found.disc_radius2();
-    if (!(radius2 > 0)) return {};
-    const std::span<const trace::Photon> nodes = photons.nodes();
-    Vec3 sum;
-    if (material.kind == MaterialKind::glossy) {
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            const trace::Photon& photon = nodes[found[i].node];
-            sum += brdf(material, normal, -trace::decode_direction(photon), to_viewer) * trace::decode_power(photon.power);
-        }
-    } else {
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            const trace::Photon& photon = nodes[found[i].node];
-            if (dot(normal, trace::decode_direction(photon)) < 0) sum += trace::decode_power(photon.power);
-        }
-        sum = sum * material.diffuse * (1 / std::numbers::pi_v<float>);
-    }
-    return sum * (1 / (std::numbers::pi_v<float> * radius2));
-}
-
-Vec3 normal_towards(const Scene& scene, std::uint32_t triangle, Vec3 direction) {
-    const auto& corners = scene.triangles[triangle];
-    const Vec3 a = scene.vertices[corners[0]];
-    const Vec3 normal = normalize(cross(scene.vertices[corners[1]] - a, scene.vertices[corners[2]] - a));
-    return dot(normal, direction) > 0 ? normal : -normal;
-}
 
 struct Chunk {
     std::vector<std::uint8_t> walks;
@@ -75,11 +44,10 @@ void gather(const Scene& scene, const spatial::PhotonKd& photons, const Queries&
             spatial::nearest(photons, queries.position[q], searcher.found, searcher.recorder);
             gathered.walk_bytes[q] = searcher.recorder.finish();
             chunks[c].found += searcher.found.size();
-            const Vec3 to_viewer = -queries.direction[q];
-            const std::uint32_t triangle = queries.triangle[q];
+            const Material& material = scene.materials[scene.triangle_material[queries.triangle[q]]];
             gathered.radiance[q] =
-                reflected_radiance(photons, searcher.found, scene.materials[scene.triangle_material[triangle]],
-                                   normal_towards(scene, triangle, to_viewer), to_viewer);
+                reflected_radiance(photons, searcher.found, {&material, queries.normal[q], -queries.direction[q]}, config.filter,
+                                   config.surface_check);
         }
         const std::span<const std::uint8_t> walks = searcher.recorder.bytes();
         chunks[c].walks.assign(walks.begin(), walks.end());

@@ -7,13 +7,10 @@
 #include <vector>
 
 #include "capture/query_pass.h"
+#include "capture/radiance_estimate.h"
 #include "spatial/photon_kd.h"
 
 namespace regather::capture {
-
-/// Weight of a photon by its distance (Jensen 2001, section 7.2.1): cone with constant k = 1.1, Gaussian with alpha = 0.918,
-/// beta = 1.953; each normalised to the weight of the whole disc.
-enum class Filter : std::uint8_t { none, cone, gaussian };
 
 struct GatherConfig {
     std::uint32_t k = 100;                                       ///< Photons of a gather; the paper, Table 1.

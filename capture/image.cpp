@@ -16,8 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 template <class Value>
-void write(const fs::path& path, const Image& image, const std::vector<Value>& values, OIIO::TypeDesc type,
-           const char* color_space) {
+void write(const fs::path& path, std::uint32_t width, std::uint32_t height, const std::vector<std::string>& names,
+           const std::vector<Value>& values, OIIO::TypeDesc type, const char* color_space) {
     fs::path partial = path.parent_path() / fmt::format("partial-{}", path.filename().string());
     const auto fail = [&](const std::string& what) {
         fs::remove(partial);
@@ -25,7 +25,8 @@ void write(const fs::path& path, const Image& image, const std::vector<Value>& v
     };
     const auto output = OIIO::ImageOutput::create(path.string());
     if (!output) fail(OIIO::geterror());
-    OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), 3, type);
+    OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height), static_cast<int>(names.size()), type);
+    spec.channelnames = names;
     spec.attribute("oiio:ColorSpace", color_space);
     spec.attribute("compression", "zip");
     spec.attribute("DateTime", "");  // else OpenImageIO writes the clock into the file
@@ -41,25 +42,52 @@ float to_srgb(float linear) {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
+float toned(float x, Tone tone) {
+    switch (tone) {
+        case Tone::exponential: return 1 - std::exp(-x);
+        case Tone::linear: return std::min(x, 1.0f);
+        case Tone::aces: return std::min(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f), 1.0f);
+    }
+    return 0;
+}
+
+const std::vector<std::string> rgb{"R", "G", "B"};
+
 }  // namespace
 
 void write_exr(const fs::path& path, const Image& image) {
-    std::vector<float> values;
-    values.reserve(3 * image.pixels.size());
-    for (trace::Vec3 p : image.pixels)
-        for (int c = 0; c < 3; ++c) values.push_back(p[c]);
-    write(path, image, values, OIIO::TypeDesc::FLOAT, "Linear");
+    write_exr(path, image.width, image.height, channels_of(image, ""));
 }
 
-void write_png(const fs::path& path, const Image& image, float exposure) {
+void write_exr(const fs::path& path, std::uint32_t width, std::uint32_t height, std::span<const Channel> channels) {
+    std::vector<std::string> names;
+    for (const Channel& channel : channels) names.push_back(channel.name);
+    std::vector<float> values;
+    values.reserve(std::size_t{width} * height * channels.size());
+    for (std::size_t i = 0; i < std::size_t{width} * height; ++i)
+        for (const Channel& channel : channels) values.push_back(channel.values[i]);
+    write(path, width, height, names, values, OIIO::TypeDesc::FLOAT, "Linear");
+}
+
+std::vector<Channel> channels_of(const Image& image, const std::string& layer) {
+    std::vector<Channel> channels;
+    for (int c = 0; c < 3; ++c) {
+        Channel& channel = channels.emplace_back(Channel{layer.empty() ? rgb[c] : layer + "." + rgb[c], {}});
+        channel.values.reserve(image.pixels.size());
+        for (const trace::Vec3 p : image.pixels) channel.values.push_back(p[c]);
+    }
+    return channels;
+}
+
+void write_png(const fs::path& path, const Image& image, float exposure, Tone tone) {
     std::vector<std::uint8_t> values;
     values.reserve(3 * image.pixels.size());
     for (trace::Vec3 p : image.pixels)
         for (int c = 0; c < 3; ++c) {
-            const float toned = 1 - std::exp(-std::max(0.0f, p[c] * exposure));
-            values.push_back(static_cast<std::uint8_t>(std::clamp(to_srgb(toned) * 255 + 0.5f, 0.0f, 255.0f)));
+            const float shown = to_srgb(toned(std::max(0.0f, p[c] * exposure), tone));
+            values.push_back(static_cast<std::uint8_t>(std::clamp(shown * 255 + 0.5f, 0.0f, 255.0f)));
         }
-    write(path, image, values, OIIO::TypeDesc::UINT8, "sRGB");
+    write(path, image.width, image.height, rgb, values, OIIO::TypeDesc::UINT8, "sRGB");
 }
 
 float middle_exposure(const Image& image) {

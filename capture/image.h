@@ -1,7 +1,10 @@
 // capture/image.h -- images in and out, through OpenImageIO: linear radiance as EXR, a view of it as PNG.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "trace/vec.h"
@@ -18,13 +21,28 @@ struct Image {
 /// std::runtime_error.
 void write_exr(const std::filesystem::path& path, const Image& image);
 
-/// 8-bit sRGB view: radiance times `exposure` through the curve 1 - exp(-x).
-void write_png(const std::filesystem::path& path, const Image& image, float exposure);
+/// One channel of an EXR that has several: "direct.R", "variance.Y".
+struct Channel {
+    std::string name;
+    std::vector<float> values;  ///< In row order.
+};
+/// The same for any channels; all have `width` x `height` values.
+void write_exr(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, std::span<const Channel> channels);
+/// An image as three channels; `layer` is empty for the picture itself.
+std::vector<Channel> channels_of(const Image& image, const std::string& layer);
+
+/// The curve between exposed radiance x and the screen, before the sRGB curve: 1 - exp(-x), min(x, 1), or the fit of the ACES
+/// filmic curve by Narkowicz ("ACES Filmic Tone Mapping Curve", 2015).
+enum class Tone : std::uint8_t { exponential, linear, aces };
+inline constexpr std::array<const char*, 3> tone_names{"exponential", "linear", "aces"};
+
+/// 8-bit sRGB view of radiance times `exposure`.
+void write_png(const std::filesystem::path& path, const Image& image, float exposure, Tone tone = Tone::exponential);
 
 /// Exposure that takes the mean luminance of the image to a middle tone (0.25 before the sRGB curve); 1 for a black image.
 float middle_exposure(const Image& image);
 
-/// Throws trace::DataError when the file is no RGB image.
+/// The first three channels. Throws trace::DataError when the file is no RGB image.
 Image read_image(const std::filesystem::path& path);
 
 }  // namespace regather::capture

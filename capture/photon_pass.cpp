@@ -6,22 +6,22 @@
 #include <algorithm>
 #include <span>
 
-#include "capture/bsdf.h"
 #include "capture/sampler.h"
 #include "capture/surface.h"
 
 namespace regather::capture {
 namespace {
 
-constexpr std::uint32_t max_bounces = 10'000;
-constexpr std::uint64_t block_paths = 2048, round_blocks = 32, paths_per_photon = 100;
+constexpr std::uint32_t most_specular_in_a_row = 10'000;
+// Rounds of 32 blocks begin small and grow: where walls reflect nearly all, a few paths make all photons.
+constexpr std::uint64_t first_block_paths = 16, most_block_paths = 2048, round_blocks = 32, extra_paths = 1'000'000;
 
 void add(Power& sum, Vec3 power) {
     for (int c = 0; c < 3; ++c) sum[static_cast<std::size_t>(c)] += static_cast<double>(power[c]);
 }
 
 struct Flight {
-    Vec3 position, direction, power;  // power [W] times the number of paths
+    Vec3 position, direction, normal, power;  // power [W] times the number of paths
 };
 
 /// Paths [first, first + count): what they stored and where their power went.
@@ -33,15 +33,8 @@ struct Block {
 
 class Tracer {
 public:
-    Tracer(const Scene& scene, const RayCaster& caster, std::uint64_t seed)
-        : scene_(scene), caster_(caster), seed_(seed) {
-        for (const scenes::AreaLight& light : scene.lights) {
-            const Vec3 power = light.power();
-            total_ += static_cast<double>(power.x) + power.y + power.z;
-            cumulative_.push_back(total_);
-        }
-    }
-    bool dark() const { return !(total_ > 0); }
+    Tracer(const Scene& scene, const RayCaster& caster, const LightSampler& lights, const PhotonConfig& config)
+        : scene_(scene), caster_(caster), lights_(lights), seed_(config.seed), kind_(config.kind), most_(config.photons) {}
 
     Block trace(std::uint64_t first, std::uint64_t count) const {
         Block block;
@@ -56,25 +49,20 @@ public:
 private:
     void trace_path(std::uint64_t path, Block& block) const {
         PhotonTally& tally = block.tally;
-        Sampler sampler(seed_, Stream::photon, path);
-        const double pick = static_cast<double>(sampler.uniform()) * total_;
-        const auto after = std::upper_bound(cumulative_.begin(), cumulative_.end(), pick);
-        const auto chosen = std::min(static_cast<std::size_t>(after - cumulative_.begin()), cumulative_.size() - 1);
-        const scenes::AreaLight& light = scene_.lights[chosen];
-        const double share = (cumulative_[chosen] - (chosen == 0 ? 0 : cumulative_[chosen - 1])) / total_;
-
-        const float u = sampler.uniform(), v = sampler.uniform(), s = sampler.uniform(), t = sampler.uniform();
-        Vec3 origin = caster_.offset(light.corner + light.edge_u * u + light.edge_v * v, light.normal());
-        Vec3 direction = Frame(light.normal()).to_world(cosine_hemisphere(s, t));
-        Vec3 power = light.power() * static_cast<float>(1 / share);
+        Sampler sampler(seed_, kind_ == PhotonKind::caustic ? Stream::caustic_photon : Stream::photon, path);
+        const Emission from = lights_.emit(sampler);
+        Vec3 origin = caster_.offset(from.position, from.normal), direction = from.direction, power = from.power;
         add(tally.emitted, power);
 
-        for (std::uint32_t bounce = 0; bounce < max_bounces; ++bounce) {
+        bool caustic = false, only_specular = true;
+        // Of a block that has more photons than asked for, no later one is used.
+        for (std::uint32_t in_a_row = 0; in_a_row < most_specular_in_a_row && block.stored.size() <= most_; ++in_a_row) {
             const std::optional<Hit> hit = caster_.closest(origin, direction);
             if (!hit) return add(tally.escaped, power);
             const Vec3 incoming = -direction;
             const Surface at = surface_at(scene_, *hit, incoming);
             const Material& material = *at.material;
+            if (is_specular(material)) caustic = only_specular;
             if (material.kind == MaterialKind::mirror) {
                 add(tally.absorbed_by_specular, power * (Vec3{1, 1, 1} - material.specular));
                 power = power * material.specular;
@@ -88,8 +76,19 @@ private:
                 direction = through ? onward : reflected(at, incoming);
                 origin = caster_.offset(hit->position, through ? -at.side : at.side);
             } else {
-                block.stored.push_back({hit->position, direction, power});
-                add(tally.stored, power);
+                const bool stored = kind_ == PhotonKind::all || caustic == (kind_ == PhotonKind::caustic);
+                if (!stored) {
+                    add(tally.not_stored, power);
+                } else if (!trace::is_finite(power) || !trace::is_finite(hit->position)) {
+                    tally.nonfinite.count(Stage::photon);
+                    return;
+                } else {
+                    block.stored.push_back({hit->position, direction, at.side, power});
+                    add(tally.stored, power);
+                }
+                if (kind_ == PhotonKind::caustic) return;
+                caustic = only_specular = false;
+                in_a_row = 0;
                 const Scatter next = scatter(material, at.normal, incoming, sampler);
                 if (next.absorbed || dot(next.direction, at.side) <= 0) return;
                 power = power * next.weight;
@@ -103,9 +102,10 @@ private:
 
     const Scene& scene_;
     const RayCaster& caster_;
+    const LightSampler& lights_;
     std::uint64_t seed_;
-    double total_ = 0;
-    std::vector<double> cumulative_;
+    PhotonKind kind_;
+    std::size_t most_;
 };
 
 void add(PhotonTally& sum, const PhotonTally& part) {
@@ -115,9 +115,11 @@ void add(PhotonTally& sum, const PhotonTally& part) {
         sum.stored[c] += part.stored[c];
         sum.escaped[c] += part.escaped[c];
         sum.absorbed_by_specular[c] += part.absorbed_by_specular[c];
+        sum.not_stored[c] += part.not_stored[c];
         sum.cut_off[c] += part.cut_off[c];
     }
     sum.paths += part.paths;
+    sum.nonfinite += part.nonfinite;
 }
 
 void scale(Power& power, double factor) {
@@ -126,17 +128,18 @@ void scale(Power& power, double factor) {
 
 }  // namespace
 
-PhotonPass trace_photons(const Scene& scene, const RayCaster& caster, const PhotonConfig& config) {
+PhotonPass trace_photons(const Scene& scene, const RayCaster& caster, const LightSampler& lights, const PhotonConfig& config) {
     PhotonPass pass;
-    const Tracer tracer(scene, caster, config.seed);
-    if (tracer.dark() || config.photons == 0) return pass;
+    if (lights.dark() || config.photons == 0) return pass;
+    const Tracer tracer(scene, caster, lights, config);
 
     std::vector<Flight> stored;
-    stored.reserve(config.photons);
-    const std::uint64_t most_paths = paths_per_photon * config.photons + 1'000'000;
+    if (config.kind != PhotonKind::caustic) stored.reserve(config.photons);
+    const std::uint64_t most_paths = std::uint64_t{config.paths_per_photon} * config.photons + extra_paths;
     std::vector<Block> blocks(round_blocks);
-    for (std::uint64_t first = 0; stored.size() < config.photons && first < most_paths;
-         first += round_blocks * block_paths) {
+    std::uint64_t block_paths = first_block_paths;
+    for (std::uint64_t first = 0; stored.size() < config.photons && first < most_paths; first += round_blocks * block_paths,
+                       block_paths = std::min(4 * block_paths, most_block_paths)) {
         tbb::parallel_for(std::uint64_t{0}, round_blocks, [&](std::uint64_t b) {
             blocks[b] = tracer.trace(first + b * block_paths, block_paths);
         });
@@ -160,7 +163,7 @@ PhotonPass trace_photons(const Scene& scene, const RayCaster& caster, const Phot
 
     const double share = 1 / static_cast<double>(pass.tally.paths);
     for (Power* power : {&pass.tally.emitted, &pass.tally.reflected, &pass.tally.stored, &pass.tally.escaped,
-                         &pass.tally.absorbed_by_specular, &pass.tally.cut_off})
+                         &pass.tally.absorbed_by_specular, &pass.tally.not_stored, &pass.tally.cut_off})
         scale(*power, share);
     pass.photons.resize(stored.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, stored.size(), 4096), [&](const auto& range) {
@@ -169,6 +172,7 @@ PhotonPass trace_photons(const Scene& scene, const RayCaster& caster, const Phot
             photon.position = stored[i].position;
             trace::encode_power(stored[i].power * static_cast<float>(share), photon.power);
             trace::encode_direction(stored[i].direction, photon);
+            trace::encode_normal(stored[i].normal, photon);
         }
     });
     return pass;

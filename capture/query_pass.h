@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "capture/lights.h"
+#include "capture/nonfinite.h"
 #include "capture/ray_caster.h"
 
 namespace regather::capture {
@@ -14,11 +16,12 @@ enum class Visualisation : std::uint8_t {
     final_gather,  ///< Equation 3: gather rays, and photon gathers where they end.
     direct,        ///< Equation 2: one photon gather at the surface itself.
 };
+inline constexpr std::array<const char*, 2> visualisation_names{"final-gather", "direct"};
 
 struct QueryConfig {
     std::uint32_t width = 512, height = 512;  ///< [pixels]
-    std::uint32_t gather_rays = 100;          ///< N a pixel; the paper, Table 1.
-    std::uint32_t shadow_rays = 16;           ///< Per light and shaded point; the paper, Table 2.
+    std::uint32_t gather_rays = 100;          ///< N a pixel, shared among its eye rays; the paper, Table 1.
+    std::uint32_t shadow_rays = 16;           ///< Per shaded point and light, of up to four lights; the paper, Table 2.
     std::uint32_t max_specular = 16;          ///< Specular surfaces in a row, then the path ends.
     std::uint32_t samples = 1;                ///< Eye rays a pixel, stratified over it; a single one goes through its centre ...
     bool jitter = false;                      ///< ... or anywhere in the pixel.
@@ -26,10 +29,17 @@ struct QueryConfig {
     std::uint64_t seed = 1;
 };
 
+/// What a part of a pixel's light is (capture.h, Layers).
+enum class Layer : std::uint8_t { direct, caustic, indirect, specular };
+inline constexpr std::array<const char*, 4> layer_names{"direct", "caustic", "indirect", "specular"};
+
 /// Columns in capture order.
 struct Queries {
     std::vector<Vec3> position, direction, weight;
     std::vector<std::uint32_t> pixel, triangle;
+    std::vector<Vec3> normal;          ///< Shading normal on the side that the ray met; not stored in traces, as are the next two.
+    std::vector<std::uint32_t> sample; ///< Eye ray of the pixel.
+    std::vector<Layer> layer;
     std::size_t size() const { return position.size(); }
     void append(const Queries& other);
     void clear();
@@ -47,31 +57,40 @@ struct Rays {
     void clear();
 };
 
+using LayeredRadiance = std::array<Vec3, layer_names.size()>;  ///< [W / (m^2 sr)] by Layer.
+
 /// What a run of pixels asks for, and what it has gathered without photons.
 struct PixelWork {
-    Queries queries;
-    std::array<Rays, 4> rays;     ///< By RayKind; empty unless they are kept.
+    Queries queries;          ///< Of the global map.
+    Queries caustic_queries;  ///< Of the caustic map, one at each shaded point; empty unless they are asked for.
+    std::array<Rays, 4> rays;  ///< By RayKind; empty unless they are kept.
     std::array<std::uint64_t, 4> ray_counts{};
-    std::vector<Vec3> radiance;   ///< [W / (m^2 sr)] a pixel: emission and direct light.
+    std::vector<LayeredRadiance> radiance;  ///< Emission and direct light of each eye ray: pixel by pixel, sample by sample.
+    Nonfinite nonfinite;      ///< Contributions and queries that were left out.
     void append(const PixelWork& other);
     void clear();
 };
 
+/// What is kept and asked for besides the global map's queries.
+struct PassParts {
+    bool rays = false;      ///< Keep the rays.
+    bool caustics = false;  ///< There is a caustic map: ask it, and let gather rays not look for lights by way of specular surfaces.
+};
+
 class QueryPass {
 public:
-    /// Scene and caster outlive the pass.
-    QueryPass(const Scene& scene, const RayCaster& caster, const QueryConfig& config, bool keep_rays);
+    /// Scene, caster and lights outlive the pass.
+    QueryPass(const Scene& scene, const RayCaster& caster, const LightSampler& lights, const QueryConfig& config, PassParts parts);
 
     /// Pixels [first, first + count) in row order, in parallel; the same on any number of threads.
     void run(std::uint64_t first, std::uint64_t count, PixelWork& work) const;
 
 private:
-    class Pixel;
     const Scene& scene_;
     const RayCaster& caster_;
+    const LightSampler& lights_;
     QueryConfig config_;
-    bool keep_rays_;
-    Vec3 forward_, right_, up_;  // right_ and up_ reach from the image centre to its edges at unit distance
+    PassParts parts_;
 };
 
 }  // namespace regather::capture

@@ -9,7 +9,7 @@
 namespace regather::capture {
 
 /// What the numbers are for; streams never share numbers.
-enum class Stream : std::uint32_t { photon, eye, shadow, gather };
+enum class Stream : std::uint32_t { photon, eye, shadow, gather, caustic_photon, reference = 64 };
 
 /// The dimensions of one sample, one after the other.
 class Sampler {
@@ -29,6 +29,11 @@ public:
     }
     /// Uniform in [0, 1), a multiple of 2^-24.
     float uniform() { return static_cast<float>(bits() >> 8) * 0x1p-24f; }
+    /// Uniform in [0, 1), a multiple of 2^-53.
+    double fine_uniform() {
+        const std::uint64_t high = bits();
+        return static_cast<double>((high << 32 | bits()) >> 11) * 0x1p-53;
+    }
     /// Uniform in [0, bound), bound > 0, by multiplication (bias below bound / 2^32).
     std::uint32_t below(std::uint32_t bound) {
         return static_cast<std::uint32_t>(std::uint64_t{bits()} * bound >> 32);

@@ -1,8 +1,10 @@
-// cli/capture_job.h -- a capture from a scene's name to the files: OUT/image.exr, OUT/image.png, OUT/trace/.
+// cli/capture_job.h -- a capture from a scene's name to the files: OUT/image.exr, OUT/image.png, OUT/trace/ and, where there is a
+// caustic map, OUT/caustic-trace/; with frames, the same in OUT/frame-0000/, OUT/frame-0005/ ...
 #pragma once
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/capture_options.h"
 #include "reorder/ordering.h"
@@ -19,6 +21,7 @@ struct CaptureJob {
 
 struct CaptureResult {
     std::string report;  ///< For people: several lines with figures and file names.
+    std::vector<std::filesystem::path> folders;  ///< One a frame; each holds image and traces.
 };
 
 /// Keeps a finished capture of the same scene and parameters. A finished one of others: trace::UsageError, unless `force`.

@@ -30,6 +30,8 @@ struct Tables {
     std::vector<results::DetailRow> details;
     std::vector<results::TimelineRow> timeline;
     std::vector<results::SamplingRow> sampling;
+    std::vector<results::ConvergenceRow> convergence;
+    std::vector<results::StabilityRow> stability;
 
     void add(const std::string& file) {
         const std::string text = trace::read_file(file);
@@ -42,9 +44,13 @@ struct Tables {
                 return append(timeline, text, file);
             case results::RowKind::sampling:
                 return append(sampling, text, file);
+            case results::RowKind::convergence:
+                return append(convergence, text, file);
+            case results::RowKind::stability:
+                return append(stability, text, file);
         }
     }
-    results::Rows rows() const { return {measurements, details, timeline, sampling}; }
+    results::Rows rows() const { return {measurements, details, timeline, sampling, convergence, stability}; }
 
 private:
     template <class R>

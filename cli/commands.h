@@ -9,7 +9,9 @@ class App;
 namespace regather::cli {
 
 void add_scenes(CLI::App& app);
+void add_import(CLI::App& app);
 void add_capture(CLI::App& app);
+void add_reference(CLI::App& app);
 void add_walk(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_detail(CLI::App& app);
@@ -18,6 +20,8 @@ void add_sampling(CLI::App& app);
 void add_cachesim(CLI::App& app);
 void add_machines(CLI::App& app);
 void add_chart(CLI::App& app);
+void add_converge(CLI::App& app);
+void add_stability(CLI::App& app);
 void add_run(CLI::App& app);
 void add_info(CLI::App& app);
 

@@ -29,8 +29,8 @@ void print_trace(const std::filesystem::path& folder, bool verify) {
     if (verify) check(trace);
     const trace::TraceInfo& info = trace.info();
     const double queries = static_cast<double>(std::max<std::uint64_t>(info.queries, 1));
-    fmt::print("trace      {}\nscene      {}\nimage      {} x {} pixels\nseed       {}\nstructure  {}, {} photons, k = {}\n",
-               folder.string(), info.scene, info.image_width, info.image_height, info.seed, info.structure, info.photons,
+    fmt::print("trace      {}\nscene      {}{}\nmap        {}\nimage      {} x {} pixels\nseed       {}\nstructure  {}, {} photons, k = {}\n",
+               folder.string(), info.scene, info.frame ? fmt::format(", frame {}", *info.frame) : "", info.map, info.image_width, info.image_height, info.seed, info.structure, info.photons,
                info.k);
     fmt::print("queries    {}: {:.1f} photons found, {:.1f} nodes visited, {:.1f} bytes of walk each\n", info.queries,
                static_cast<double>(info.found_photons) / queries, static_cast<double>(info.visited_nodes) / queries,

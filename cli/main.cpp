@@ -74,7 +74,9 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.set_version_flag("--version", cli::version_text());
     cli::add_scenes(app);
+    cli::add_import(app);
     cli::add_capture(app);
+    cli::add_reference(app);
     cli::add_walk(app);
     cli::add_replay(app);
     cli::add_detail(app);
@@ -83,6 +85,8 @@ int main(int argc, char** argv) {
     cli::add_cachesim(app);
     cli::add_machines(app);
     cli::add_chart(app);
+    cli::add_converge(app);
+    cli::add_stability(app);
     cli::add_run(app);
     cli::add_info(app);
     try {

@@ -128,11 +128,13 @@ std::vector<results::Row> Measurement::rows(const reorder::ParsedOrdering& parse
     for (const replay::CacheTraffic& traffic : replayed.caches) {
         results::Row row;
         row.scene = trace_.info().scene;
+        if (trace_.info().frame) row.frame = *trace_.info().frame;
         row.ordering = spec.name;
         if (spec.tile) row.tile = *spec.tile;
         if (spec.bins) row.bins = *spec.bins;
         row.parameters = spec.text;
         row.structure = trace_.info().structure;
+        if (trace_.info().map != "global") row.structure += " " + trace_.info().map;
         row.layout = layout_.name;
         row.policy = "lru";
         row.cache_bytes = traffic.config.size_bytes;

@@ -1,5 +1,6 @@
 // regather run -- a whole experiment: capture, every ordering, every cache, CSV and charts. Finished parts are kept.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 #include <xxhash.h>
@@ -142,6 +143,28 @@ void replay_missing(const Measurement& measurement, const Experiment& experiment
     }
 }
 
+/// All rows of one trace: what is missing is replayed.
+std::vector<results::Row> measured(trace::TraceReader& trace, const fs::path& folder, const Experiment& experiment) {
+    Measurement measurement(trace, reads(experiment), experiment.onchip_bytes);
+    fs::create_directories(folder / "parts");
+    find_compulsory(measurement, folder, experiment, trace);
+    std::vector<fs::path> parts;
+    for (const Trial& trial : experiment.trials) parts.push_back(part_path(folder, trial, trace, experiment));
+    if (!std::all_of(parts.begin(), parts.end(), [](const fs::path& part) { return fs::exists(part); })) {
+        prepare(measurement, folder, experiment, trace);
+        replay_missing(measurement, experiment, parts);
+    }
+    std::vector<results::Row> rows;
+    for (std::size_t t = 0; t < parts.size(); ++t) {
+        const std::vector<results::Row> some = results::read_csv(parts[t]);
+        if (some.size() != experiment.trials[t].caches.size())
+            throw trace::DataError(fmt::format("{}: found {} rows, expected {}, one a cache; delete it", parts[t].string(),
+                                               some.size(), experiment.trials[t].caches.size()));
+        rows.insert(rows.end(), some.begin(), some.end());
+    }
+    return rows;
+}
+
 }  // namespace
 
 void add_run(CLI::App& app) {
@@ -163,34 +186,25 @@ void add_run(CLI::App& app) {
         fmt::print("{}", captured.report);
         std::fflush(stdout);
 
-        trace::TraceReader trace(options->folder / "trace");
-        Measurement measurement(trace, reads(experiment), experiment.onchip_bytes);
-        fs::create_directories(options->folder / "parts");
-        find_compulsory(measurement, options->folder, experiment, trace);
-        std::vector<fs::path> parts;
-        for (const Trial& trial : experiment.trials)
-            parts.push_back(part_path(options->folder, trial, trace, experiment));
-        if (!std::all_of(parts.begin(), parts.end(), [](const fs::path& part) { return fs::exists(part); })) {
-            prepare(measurement, options->folder, experiment, trace);
-            replay_missing(measurement, experiment, parts);
-        }
-
         std::vector<results::Row> rows;
-        for (std::size_t t = 0; t < parts.size(); ++t) {
-            const std::vector<results::Row> some = results::read_csv(parts[t]);
-            if (some.size() != experiment.trials[t].caches.size())
-                throw trace::DataError(fmt::format("{}: found {} rows, expected {}, one a cache; delete it", parts[t].string(),
-                                                   some.size(), experiment.trials[t].caches.size()));
-            rows.insert(rows.end(), some.begin(), some.end());
+        std::vector<std::string> checksums;
+        nlohmann::json parameters;
+        for (const fs::path& folder : captured.folders) {
+            trace::TraceReader trace(folder / "trace");
+            for (results::Row& row : measured(trace, folder, experiment)) rows.push_back(std::move(row));
+            checksums.push_back(trace.checksum());
+            parameters = trace.info().parameters;
         }
+        if (captured.folders.size() > 1) parameters["frame"] = experiment.capture.frames;
         results::fill_net_benefit(rows);
         const fs::path csv = options->folder / "rows.csv";
         results::write_csv(csv, rows);
-        results::write_provenance(csv, {command_line(), version(), git_revision(), trace.checksum()},
-                                  trace.info().parameters);
+        results::write_provenance(csv, {command_line(), version(), git_revision(), fmt::format("{}", fmt::join(checksums, " "))},
+                                  parameters);
         const auto charts = results::write_charts(options->folder / "charts", rows, {}, {});
         fmt::print("{}", results::table(rows));
-        fmt::print("image:  {}\nrows:   {}\n", (options->folder / "image.png").string(), csv.string());
+        for (const fs::path& folder : captured.folders) fmt::print("image:  {}\n", (folder / "image.png").string());
+        fmt::print("rows:   {}\n", csv.string());
         for (const results::Drawn& drawn : charts) {
             if (drawn.files.empty()) {
                 fmt::print("chart:  no {}: {}\n", drawn.kind, drawn.skipped);

@@ -5,8 +5,10 @@
 #include "results/accuracy.h"
 #include "results/bars.h"
 #include "results/budget.h"
+#include "results/convergence.h"
 #include "results/depth.h"
 #include "results/gnuplot.h"
+#include "results/stability.h"
 #include "results/sweep.h"
 #include "results/timeline.h"
 #include "trace/error.h"
@@ -33,6 +35,8 @@ constexpr ChartKind kinds_table[] = {
     {"timeline", "Misses over the run", "rows by slice of the run", RowKind::timeline, timeline},
     {"sampling-error", "Set sampling: error against run time", "rows of sampled runs", RowKind::sampling,
      sampling_error},
+    {"stability", "Stiff and extreme cases: error and what is allowed", "rows of the stability study", RowKind::stability,
+     stability},
 };
 
 bool has(const Rows& rows, RowKind kind) {
@@ -43,6 +47,10 @@ bool has(const Rows& rows, RowKind kind) {
             return !rows.timeline.empty();
         case RowKind::sampling:
             return !rows.sampling.empty();
+        case RowKind::convergence:
+            return !rows.convergence.empty();
+        case RowKind::stability:
+            return !rows.stability.empty();
         default:
             return !rows.measurements.empty();
     }

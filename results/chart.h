@@ -38,6 +38,8 @@ struct Rows {
     std::span<const DetailRow> details;
     std::span<const TimelineRow> timeline;
     std::span<const SamplingRow> sampling;
+    std::span<const ConvergenceRow> convergence = {};
+    std::span<const StabilityRow> stability = {};
 };
 
 struct ChartKind {

@@ -106,6 +106,70 @@ constexpr Column<SamplingRow> sampling_columns[] = {
     {"exact_seconds", Seconds<SamplingRow>{&SamplingRow::exact_seconds}},
 };
 
+using C = ConvergenceRow;
+constexpr Column<C> convergence_columns[] = {
+    {"scene", &C::scene},
+    {"reference", &C::reference},
+    {"ladder", &C::ladder, needed},
+    {"mode", &C::mode, needed},
+    {"gather_rays", &C::gather_rays},
+    {"photons", &C::photons},
+    {"k", &C::k},
+    {"radius", Real<C>{&C::radius}},
+    {"caustic_photons", &C::caustic_photons},
+    {"samples", &C::samples},
+    {"shadow_rays", &C::shadow_rays},
+    {"width", &C::width},
+    {"height", &C::height},
+    {"seeds", &C::seeds},
+    {"render_seconds", Seconds<C>{&C::render_seconds}},
+    {"photon_seconds", Seconds<C>{&C::photon_seconds}},
+    {"tree_seconds", Seconds<C>{&C::tree_seconds}},
+    {"total_seconds", Seconds<C>{&C::total_seconds}, needed},
+    {"rmse", Real<C>{&C::rmse}, needed},
+    {"below_reference", &C::below_reference},
+    {"rel_mse", Real<C>{&C::rel_mse}},
+    {"rel_mse_trimmed", Real<C>{&C::rel_mse_trimmed}},
+    {"mape", Real<C>{&C::mape}},
+    {"ldr_flip", Real<C>{&C::ldr_flip}},
+    {"hdr_flip", Real<C>{&C::hdr_flip}},
+    {"variance", Real<C>{&C::variance}},
+    {"bias_squared", SignedReal<C>{&C::bias_squared}},
+    {"bias_squared_stderr", Real<C>{&C::bias_squared_stderr}},
+    {"interior_variance", Real<C>{&C::interior_variance}},
+    {"interior_bias_squared", SignedReal<C>{&C::interior_bias_squared}},
+    {"interior_bias_squared_stderr", Real<C>{&C::interior_bias_squared_stderr}},
+    {"interior_pixels", &C::interior_pixels},
+    {"interior_radius", Real<C>{&C::interior_radius}},
+    {"interior_mean_radiance", Real<C>{&C::interior_mean_radiance}},
+    {"efficiency", Real<C>{&C::efficiency}},
+    {"mean_radiance", Real<C>{&C::mean_radiance}},
+    {"reference_rmse", Real<C>{&C::reference_rmse}},
+    {"nonfinite", &C::nonfinite},
+};
+
+constexpr Column<StabilityRow> stability_columns[] = {
+    {"group", &StabilityRow::group, needed},
+    {"case", &StabilityRow::stability_case, needed},
+    {"quantity", &StabilityRow::quantity},
+    {"error", Real<StabilityRow>{&StabilityRow::error}, needed},
+    {"allowed_error", Real<StabilityRow>{&StabilityRow::allowed_error}, needed},
+    {"passed", &StabilityRow::passed},
+    {"seconds", Seconds<StabilityRow>{&StabilityRow::seconds}},
+    {"reason", &StabilityRow::reason},
+};
+
+constexpr Column<LadderRow> ladder_columns[] = {
+    {"ladder", &LadderRow::ladder, needed},
+    {"mode", &LadderRow::mode},
+    {"gather_rays", &LadderRow::gather_rays},
+    {"photons", &LadderRow::photons},
+    {"k", &LadderRow::k},
+    {"radius", Real<LadderRow>{&LadderRow::radius}},
+    {"caustic_photons", &LadderRow::caustic_photons},
+    {"samples", &LadderRow::samples},
+};
+
 }  // namespace
 
 template <>
@@ -123,6 +187,18 @@ std::span<const Column<TimelineRow>> columns() {
 template <>
 std::span<const Column<SamplingRow>> columns() {
     return sampling_columns;
+}
+template <>
+std::span<const Column<ConvergenceRow>> columns() {
+    return convergence_columns;
+}
+template <>
+std::span<const Column<StabilityRow>> columns() {
+    return stability_columns;
+}
+template <>
+std::span<const Column<LadderRow>> columns() {
+    return ladder_columns;
 }
 
 }  // namespace regather::results

@@ -33,8 +33,12 @@ struct CellWriter {
     std::string operator()(Seconds<R> seconds) const {
         return row.*seconds.field ? fmt::format("{:.6f}", *(row.*seconds.field)) : "";
     }
-    std::string operator()(Real<R> real) const {
-        return row.*real.field ? fmt::format("{}", *(row.*real.field)) : "";
+    std::string operator()(Real<R> real) const { return number(real.field); }
+    std::string operator()(SignedReal<R> real) const { return number(real.field); }
+
+private:
+    std::string number(std::optional<double> R::*field) const {
+        return row.*field ? fmt::format("{}", *(row.*field)) : "";
     }
 };
 
@@ -164,6 +168,12 @@ struct CellReader {
     const char* operator()(Real<R> number) const {
         return real(row.*number.field, "a decimal number from 0 up, or an empty cell");
     }
+    const char* operator()(SignedReal<R> number) const {
+        double value = 0;
+        if (parse(text, value) != std::errc{} || !std::isfinite(value)) return "a decimal number or an empty cell";
+        row.*number.field = value;
+        return nullptr;
+    }
 
 private:
     template <class T>
@@ -282,6 +292,8 @@ std::vector<R> read_csv(const std::filesystem::path& path) {
 RowKind row_kind(std::string_view text, std::string_view file) {
     Records records(text, file);
     const std::vector<std::string> header = header_of(records, file);
+    if (has_needed<ConvergenceRow>(header)) return RowKind::convergence;
+    if (has_needed<StabilityRow>(header)) return RowKind::stability;
     if (has_needed<SamplingRow>(header)) return RowKind::sampling;
     if (has_needed<TimelineRow>(header)) return RowKind::timeline;
     if (has_needed<DetailRow>(header)) return RowKind::detail;
@@ -292,17 +304,26 @@ template std::string to_csv<Row>(std::span<const Row>);
 template std::string to_csv<DetailRow>(std::span<const DetailRow>);
 template std::string to_csv<TimelineRow>(std::span<const TimelineRow>);
 template std::string to_csv<SamplingRow>(std::span<const SamplingRow>);
+template std::string to_csv<ConvergenceRow>(std::span<const ConvergenceRow>);
+template std::string to_csv<StabilityRow>(std::span<const StabilityRow>);
 template std::vector<Row> from_csv<Row>(std::string_view, std::string_view);
 template std::vector<DetailRow> from_csv<DetailRow>(std::string_view, std::string_view);
 template std::vector<TimelineRow> from_csv<TimelineRow>(std::string_view, std::string_view);
 template std::vector<SamplingRow> from_csv<SamplingRow>(std::string_view, std::string_view);
+template std::vector<StabilityRow> from_csv<StabilityRow>(std::string_view, std::string_view);
+template std::vector<ConvergenceRow> from_csv<ConvergenceRow>(std::string_view, std::string_view);
+template std::vector<LadderRow> from_csv<LadderRow>(std::string_view, std::string_view);
 template void write_csv<Row>(const std::filesystem::path&, std::span<const Row>);
 template void write_csv<DetailRow>(const std::filesystem::path&, std::span<const DetailRow>);
 template void write_csv<TimelineRow>(const std::filesystem::path&, std::span<const TimelineRow>);
 template void write_csv<SamplingRow>(const std::filesystem::path&, std::span<const SamplingRow>);
+template void write_csv<StabilityRow>(const std::filesystem::path&, std::span<const StabilityRow>);
+template void write_csv<ConvergenceRow>(const std::filesystem::path&, std::span<const ConvergenceRow>);
 template std::vector<Row> read_csv<Row>(const std::filesystem::path&);
 template std::vector<DetailRow> read_csv<DetailRow>(const std::filesystem::path&);
 template std::vector<TimelineRow> read_csv<TimelineRow>(const std::filesystem::path&);
 template std::vector<SamplingRow> read_csv<SamplingRow>(const std::filesystem::path&);
+template std::vector<StabilityRow> read_csv<StabilityRow>(const std::filesystem::path&);
+template std::vector<ConvergenceRow> read_csv<ConvergenceRow>(const std::filesystem::path&);
 
 }  // namespace regather::results

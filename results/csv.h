@@ -11,9 +11,11 @@
 #include <variant>
 #include <vector>
 
+#include "results/convergence_row.h"
 #include "results/detail_row.h"
 #include "results/row.h"
 #include "results/sampling_row.h"
+#include "results/stability_row.h"
 #include "results/timeline_row.h"
 
 namespace regather::results {
@@ -37,15 +39,22 @@ struct Real {
     std::optional<double> R::*field;
 };
 
+/// As Real, and below 0 too.
+template <class R>
+struct SignedReal {
+    std::optional<double> R::*field;
+};
+
 /// A column is a field of a row under a name; the same table writes and reads.
 template <class R>
 struct Column {
     std::string_view name;
-    std::variant<std::string R::*, Count R::*, Signed R::*, Flag R::*, Ways<R>, Seconds<R>, Real<R>> field;
+    std::variant<std::string R::*, Count R::*, Signed R::*, Flag R::*, Ways<R>, Seconds<R>, Real<R>, SignedReal<R>> field;
     bool needed = false;  ///< A file without it is refused.
 };
 
-/// In the order in which they are written. R is Row, DetailRow, TimelineRow or SamplingRow, here and below.
+/// In the order in which they are written. R is a kind of row, here and below: Row, DetailRow, TimelineRow, SamplingRow,
+/// ConvergenceRow, LadderRow, StabilityRow.
 template <class R>
 std::span<const Column<R>> columns();
 
@@ -64,7 +73,7 @@ void write_csv(const std::filesystem::path& path, std::type_identity_t<std::span
 template <class R = Row>
 std::vector<R> read_csv(const std::filesystem::path& path);
 
-enum class RowKind { measurement, detail, timeline, sampling };
+enum class RowKind { measurement, detail, timeline, sampling, convergence, stability };
 
 /// By the header line: the kind whose needed columns are all there, else measurement. Throws trace::DataError
 /// for a text without a header.

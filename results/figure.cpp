@@ -220,6 +220,7 @@ private:
                         gnuplot_string(point.label), point.x, point.y, line.colour);
             }
             say("EOD\n");
+            bars(line, fmt::format("$bars_{}_{}", p, l), add);
             if (line.form == Line::Form::steps) {
                 add(fmt::format("{} using 1:2 with steps lc rgb '{}' lw {:.2f}", name, line.colour,
                                 line.width));
@@ -232,6 +233,17 @@ private:
         }
         say("{}plot {}\n", labels_, plots.empty() ? "NaN" : plots);
         labels_.clear();
+    }
+
+    template <class Add>
+    void bars(const Line& line, const std::string& name, const Add& add) {
+        const auto has_bar = [](const Point& point) { return !std::isnan(point.low); };
+        if (std::none_of(line.points.begin(), line.points.end(), has_bar)) return;
+        say("{} << EOD\n", name);
+        for (const Point& point : line.points)
+            if (has_bar(point)) say("{:.10g} {:.10g} {:.10g} {:.10g}\n", point.x, point.y, point.low, point.high);
+        say("EOD\n");
+        add(fmt::format("{} using 1:2:3:4 with yerrorbars lc rgb '{}' lw 1 dt solid pt 0", name, line.colour));
     }
 
     /// A plot of its own over the whole canvas in pixels, as gnuplot drops entries that do not fit beside

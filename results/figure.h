@@ -17,11 +17,12 @@ namespace regather::results {
 struct Point {
     double x = 0, y = 0;
     std::string label = {};  ///< Beside it.
+    double low = std::numeric_limits<double>::quiet_NaN(), high = low;  ///< Ends of its error bar; NaN: none.
     friend bool operator==(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y; }
 };
 /// Between two points that are not to be joined.
 inline const Point gap{
-    std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(), {}};
+    std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(), {}};  // no bar
 
 struct Line {
     /// `plain`: no markers. `steps`: level from each point to the next; the last one has no marker.

@@ -135,7 +135,7 @@ void Node::check_object(const Kind& kind, std::string_view noun) const {
 }
 
 const Kind& Node::check_object(std::span<const Kind> kinds, std::string_view discriminator,
-                               std::string_view noun) const {
+                               std::string_view noun, const Kind* otherwise) const {
     if (!value_->is_object()) fail(found(), "an object");
     const std::vector<std::string_view> names = names_of(kinds);
     if (!has(discriminator)) {
@@ -147,6 +147,10 @@ const Kind& Node::check_object(std::span<const Kind> kinds, std::string_view dis
                                  [&](const Key& k) { return k.name == key.name; }))
                     any.keys.push_back({key.name, false, key.expected});
         check_object(any);
+        if (otherwise != nullptr) {
+            check_object(*otherwise, noun);
+            return *otherwise;
+        }
         Node(*value_, joined(path_, discriminator), *file_).fail("nothing", trace::alternatives(names));
     }
     const Node type = (*this)[discriminator];
@@ -207,13 +211,21 @@ std::uint32_t Node::whole(std::uint32_t low, std::uint32_t high, std::string_vie
     return static_cast<std::uint32_t>(x);
 }
 
-trace::Vec3 Node::triple(double low, double high, std::string_view expected) const {
+bool Node::truth(std::string_view expected) const {
+    if (!value_->is_boolean()) fail(found(), expected);
+    return value_->get<bool>();
+}
+
+std::array<double, 3> Node::numbers(double low, double high, std::string_view expected) const {
     const std::vector<Node> three = elements(expected);
     if (three.size() != 3) fail(found(), expected);
-    trace::Vec3 v;
-    for (int axis = 0; axis < 3; ++axis)
-        v[axis] = static_cast<float>(three[static_cast<std::size_t>(axis)].number(low, high, expected));
-    return v;
+    return {three[0].number(low, high, expected), three[1].number(low, high, expected),
+            three[2].number(low, high, expected)};
+}
+
+trace::Vec3 Node::triple(double low, double high, std::string_view expected) const {
+    const auto [x, y, z] = numbers(low, high, expected);
+    return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
 }
 
 Document::Document(std::string_view text, std::string file) : file_(std::move(file)) {

@@ -1,6 +1,7 @@
 // scenes/document.h -- a JSON scene file, read strictly: every value knows where it stands, so that each
 // refusal is one line "FILE: FIELD: found X, expected Y" (trace::DataError).
 #pragma once
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -28,9 +29,9 @@ public:
     /// Refuses anything but an object that has all required keys of `kind` and none beyond its keys.
     void check_object(const Kind& kind, std::string_view noun = "") const;
     /// Which of `kinds` this object is by its text at `discriminator`; checked like check_object. `noun`:
-    /// "shape".
+    /// "shape". Without the discriminator it is of kind `otherwise`, if there is one.
     const Kind& check_object(std::span<const Kind> kinds, std::string_view discriminator,
-                             std::string_view noun) const;
+                             std::string_view noun, const Kind* otherwise = nullptr) const;
 
     bool has(std::string_view key) const;
     Node operator[](std::string_view key) const;  ///< A key that is there.
@@ -42,6 +43,8 @@ public:
     enum class Ends { closed, open, open_low };
     double number(double low, double high, std::string_view expected, Ends ends = Ends::closed) const;
     std::uint32_t whole(std::uint32_t low, std::uint32_t high, std::string_view expected) const;
+    bool truth(std::string_view expected) const;
+    std::array<double, 3> numbers(double low, double high, std::string_view expected) const;
     trace::Vec3 triple(double low, double high, std::string_view expected) const;
 
 private:

@@ -23,8 +23,11 @@ struct Kind {
 
 const Kind& scene_kind();
 const Kind& camera_kind();
-const Kind& light_kind();
-/// Told apart by their key "type": quad, box, sphere, mesh.
+const Kind& camera_path_kind();
+const Kind& key_frame_kind();
+/// Told apart by their key "type": rectangle (also without the key), sphere, mesh.
+std::span<const Kind> light_kinds();
+/// Told apart by their key "type": quad, patch, box, sphere, cylinder, lathe, torus, ripple, mesh, instances.
 std::span<const Kind> shape_kinds();
 /// Told apart by their key "kind": diffuse, glossy, mirror, dielectric.
 std::span<const Kind> material_kinds();

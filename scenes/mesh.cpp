@@ -1,6 +1,8 @@
 #include "scenes/mesh.h"
 
 #include <assimp/BaseImporter.h>
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -13,6 +15,10 @@
 #include <set>
 #include <string>
 
+#include "scenes/document.h"
+#include "scenes/gltf.h"
+#include "scenes/mesh_material.h"
+#include "scenes/obj.h"
 #include "scenes/ply.h"
 #include "trace/error.h"
 
@@ -45,6 +51,74 @@ std::string reason(const Assimp::Importer& importer) {
     return text.empty() ? "no reason given" : text;
 }
 
+// Opens what has been checked, and nothing else: a library's name may lead anywhere.
+class CheckedFiles : public Assimp::DefaultIOSystem {
+public:
+    void allow(const std::filesystem::path& file) { allowed_.insert(file.lexically_normal()); }
+    bool Exists(const char* file) const override { return is_allowed(file) && DefaultIOSystem::Exists(file); }
+    Assimp::IOStream* Open(const char* file, const char* mode) override {
+        return is_allowed(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
+    }
+
+private:
+    bool is_allowed(const char* file) const {
+        return allowed_.count(std::filesystem::path(file).lexically_normal()) > 0;
+    }
+    std::set<std::filesystem::path> allowed_;
+};
+
+std::string content_of(const std::filesystem::path& file) {
+    std::error_code error;
+    const std::uintmax_t bytes = std::filesystem::file_size(file, error);
+    if (error || bytes > most_file_bytes)
+        throw DataError(fmt::format("{}: found {} bytes, expected at most {}", file.string(), bytes, most_file_bytes));
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// Refuses a damaged OBJ or library; tells the first library that is not there.
+std::string check_obj_and_libraries(const std::filesystem::path& file, CheckedFiles& files) {
+    const ObjContents contents = check_obj(content_of(file));
+    if (!contents.damage.empty())
+        throw DataError(fmt::format("{}: found {}, expected a whole OBJ file", file.string(), contents.damage));
+    std::string missing;
+    for (const std::string& name : contents.libraries) {
+        std::filesystem::path library = file.parent_path() / name;
+        std::error_code error;
+        if (!std::filesystem::is_regular_file(library, error)) {
+            // Assimp looks there next.
+            library = std::filesystem::path(file).replace_extension(".mtl");
+            if (!std::filesystem::is_regular_file(library, error)) {
+                if (missing.empty()) missing = name;
+                continue;
+            }
+        }
+        if (const std::string damage = mtl_damage(content_of(library)); !damage.empty())
+            throw DataError(fmt::format("{}: found {}, expected a whole MTL file", library.string(), damage));
+        files.allow(library);
+    }
+    return missing;
+}
+
+Vec3 color_of(const aiMaterial& from, const char* key, unsigned type, unsigned index, Vec3 otherwise) {
+    aiColor3D color;
+    return from.Get(key, type, index, color) == aiReturn_SUCCESS ? Vec3{color.r, color.g, color.b} : otherwise;
+}
+
+Material own_material(const aiMaterial& from) {
+    aiString name;
+    if (from.Get(AI_MATKEY_NAME, name) != aiReturn_SUCCESS || std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME)
+        return {.name = "default"};
+    MtlTerms terms;
+    terms.kd = color_of(from, AI_MATKEY_COLOR_DIFFUSE, terms.kd);
+    terms.ks = color_of(from, AI_MATKEY_COLOR_SPECULAR, terms.ks);
+    from.Get(AI_MATKEY_SHININESS, terms.ns);
+    from.Get(AI_MATKEY_OPACITY, terms.d);
+    from.Get(AI_MATKEY_REFRACTI, terms.ni);
+    from.Get("$mat.illum", 0, 0, terms.illum);
+    return material_of(name.C_Str(), terms);
+}
+
 void append(Mesh& mesh, const aiMesh& part) {
     Surface& surface = mesh.surface;
     const auto first = static_cast<std::uint32_t>(surface.vertices.size());
@@ -61,12 +135,37 @@ void append(Mesh& mesh, const aiMesh& part) {
     }
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
         const aiFace& face = part.mFaces[f];
-        if (face.mNumIndices == 3)
+        if (face.mNumIndices == 3) {
             surface.triangles.push_back(
                 {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
-        else
+            mesh.triangle_material.push_back(part.mMaterialIndex);
+        } else {
             ++mesh.degenerate_faces;
+        }
     }
+}
+
+Mesh read_by_assimp(const std::filesystem::path& file, const std::string& extension) {
+    const std::string name = file.string();
+    CheckedFiles* files = new CheckedFiles;  // The importer owns it.
+    Assimp::Importer importer;
+    importer.SetIOHandler(files);
+    files->allow(file);
+    Mesh mesh;
+    if (extension == ".ply") {
+        if (const std::string damage = ply_damage(content_of(file)); !damage.empty())
+            throw DataError(fmt::format("{}: found {}, expected a whole PLY file", name, damage));
+    } else {
+        mesh.missing_library = check_obj_and_libraries(file, *files);
+    }
+    keep_only(importer, extension.substr(1));
+    // Validation comes first and refuses indices beyond the vertices, before anything follows them.
+    const aiScene* scene = importer.ReadFile(
+        name, aiProcess_ValidateDataStructure | aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
+    if (scene == nullptr) throw DataError(fmt::format("{}: found damaged data ({})", name, reason(importer)));
+    for (unsigned m = 0; m < scene->mNumMaterials; ++m) mesh.materials.push_back(own_material(*scene->mMaterials[m]));
+    for (unsigned m = 0; m < scene->mNumMeshes; ++m) append(mesh, *scene->mMeshes[m]);
+    return mesh;
 }
 
 }  // namespace
@@ -76,36 +175,17 @@ Mesh read_mesh(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension != ".obj" && extension != ".ply")
-        throw DataError(
-            fmt::format("{}: found the extension \"{}\", expected .obj or .ply", name, extension));
+    const bool is_gltf = extension == ".gltf" || extension == ".glb";
+    if (extension != ".obj" && extension != ".ply" && !is_gltf)
+        throw DataError(fmt::format("{}: found the extension {}, expected .obj, .ply, .gltf or .glb", name, in_quotes(extension)));
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error))
-        throw DataError(fmt::format("{}: found no file, expected an OBJ or PLY mesh", name));
-    const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-    if (error || bytes > most_file_bytes)
-        throw DataError(fmt::format("{}: found {} bytes, expected at most {}", name, bytes, most_file_bytes));
-
-    if (extension == ".ply") {
-        std::ifstream stream(file, std::ios::binary);
-        const std::string content{std::istreambuf_iterator<char>(stream), {}};
-        if (const std::string damage = ply_damage(content); !damage.empty())
-            throw DataError(fmt::format("{}: found {}, expected a whole PLY file", name, damage));
-    }
-
-    Assimp::Importer importer;
-    keep_only(importer, extension.substr(1));
-    // Validation comes first and refuses indices beyond the vertices, before anything follows them.
-    const aiScene* scene = importer.ReadFile(
-        name, aiProcess_ValidateDataStructure | aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
-    if (scene == nullptr) throw DataError(fmt::format("{}: found damaged data ({})", name, reason(importer)));
-
-    Mesh mesh;
-    for (unsigned m = 0; m < scene->mNumMeshes; ++m) append(mesh, *scene->mMeshes[m]);
+        throw DataError(fmt::format("{}: found no file, expected an OBJ, PLY or glTF mesh", name));
+    Mesh mesh = is_gltf ? read_gltf(file) : read_by_assimp(file, extension);
     for (const Vec3 p : mesh.surface.vertices)
         if (!trace::is_finite(p))
             throw DataError(fmt::format("{}: found a vertex that is not finite, expected numbers", name));
-    mesh.degenerate_faces += drop_degenerate(mesh.surface);
+    mesh.degenerate_faces += drop_degenerate(mesh.surface, &mesh.triangle_material);
     if (mesh.surface.triangles.empty())
         throw DataError(fmt::format("{}: found no triangle with an area, expected at least one", name));
     return mesh;

@@ -36,6 +36,10 @@ std::uint64_t triangle_count(const Quad& quad) {
     return 2ull * quad.divide[0] * quad.divide[1];
 }
 
+std::uint64_t triangle_count(const Patch& patch) {
+    return 2ull * patch.divide[0] * patch.divide[1];
+}
+
 std::uint64_t triangle_count(const Box& box) {
     const std::uint64_t x = box.divide[0], y = box.divide[1], z = box.divide[2];
     return 4 * (x * y + y * z + z * x);
@@ -43,6 +47,11 @@ std::uint64_t triangle_count(const Box& box) {
 
 std::uint64_t triangle_count(const Sphere& sphere) {
     return 2ull * sphere.segments * (ring_count(sphere) - 1);
+}
+
+std::uint64_t triangle_count(const Ripple& ripple) {
+    const std::uint64_t n = ripple.cells;
+    return 2 * n * n + (ripple.depth > 0 ? 12 * n : 0);  // Sides, and a fan for the bottom.
 }
 
 Surface tessellate(const Quad& quad) {
@@ -55,6 +64,22 @@ Surface tessellate(const Quad& quad) {
             surface.vertices.push_back({static_cast<float>(c.x + s * u.x + t * v.x),
                                         static_cast<float>(c.y + s * u.y + t * v.y),
                                         static_cast<float>(c.z + s * u.z + t * v.z)});
+        }
+    add_grid_triangles(surface, 0, nu, nv);
+    surface.normals.resize(surface.vertices.size());
+    return surface;
+}
+
+Surface tessellate(const Patch& patch) {
+    Surface surface;
+    const auto [nu, nv] = patch.divide;
+    const auto& [a, b, c, d] = patch.corners;
+    for (std::uint32_t j = 0; j <= nv; ++j)
+        for (std::uint32_t i = 0; i <= nu; ++i) {
+            Vec3 p;
+            for (int axis = 0; axis < 3; ++axis)
+                p[axis] = between(between(a[axis], b[axis], i, nu), between(d[axis], c[axis], i, nu), j, nv);
+            surface.vertices.push_back(p);
         }
     add_grid_triangles(surface, 0, nu, nv);
     surface.normals.resize(surface.vertices.size());
@@ -131,6 +156,46 @@ Surface tessellate(const Sphere& sphere) {
     return surface;
 }
 
+Surface tessellate(const Ripple& ripple) {
+    Surface surface;
+    const std::uint32_t n = ripple.cells;
+    const double turns = 2 * std::numbers::pi / ripple.wavelength, phase = ripple.phase_degrees * radians_per_degree;
+    const float half = ripple.size / 2;
+    const Vec3 c = ripple.center;
+    for (std::uint32_t j = 0; j <= n; ++j)
+        for (std::uint32_t i = 0; i <= n; ++i) {
+            const Vec3 p{between(c.x - half, c.x + half, i, n), between(c.y - half, c.y + half, j, n), 0};
+            const double x = static_cast<double>(p.x) - c.x, y = static_cast<double>(p.y) - c.y, r = std::hypot(x, y);
+            const double angle = turns * r - phase, slope = -ripple.amplitude * turns * std::sin(angle);
+            surface.vertices.push_back({p.x, p.y, static_cast<float>(c.z + ripple.amplitude * std::cos(angle))});
+            const double along = r > 0 ? slope / r : 0;
+            surface.normals.push_back(trace::normalize({static_cast<float>(-along * x), static_cast<float>(-along * y), 1}));
+        }
+    add_grid_triangles(surface, 0, n, n);
+    if (!(ripple.depth > 0)) return surface;
+
+    // The boundary, counter-clockwise from above; then each of its points on the bottom.
+    std::vector<std::uint32_t> boundary;
+    for (std::uint32_t i = 0; i < n; ++i) boundary.push_back(i);
+    for (std::uint32_t j = 0; j < n; ++j) boundary.push_back(j * (n + 1) + n);
+    for (std::uint32_t i = n; i > 0; --i) boundary.push_back(n * (n + 1) + i);
+    for (std::uint32_t j = n; j > 0; --j) boundary.push_back(j * (n + 1));
+    const auto around = static_cast<std::uint32_t>(boundary.size());
+    const auto upper = static_cast<std::uint32_t>(surface.vertices.size()), lower = upper + around, middle = lower + around;
+    for (const std::uint32_t b : boundary) surface.vertices.push_back(surface.vertices[b]);
+    for (const std::uint32_t b : boundary)
+        surface.vertices.push_back({surface.vertices[b].x, surface.vertices[b].y, c.z - ripple.depth});
+    surface.vertices.push_back({c.x, c.y, c.z - ripple.depth});
+    surface.normals.resize(surface.vertices.size());
+    for (std::uint32_t i = 0; i < around; ++i) {
+        const std::uint32_t next = (i + 1) % around;
+        surface.triangles.push_back({upper + i, lower + i, lower + next});
+        surface.triangles.push_back({upper + i, lower + next, upper + next});
+        surface.triangles.push_back({middle, lower + next, lower + i});
+    }
+    return surface;
+}
+
 double triangle_area(Vec3 a, Vec3 b, Vec3 c) {
     const double ux = static_cast<double>(b.x) - a.x, uy = static_cast<double>(b.y) - a.y;
     const double uz = static_cast<double>(b.z) - a.z, vx = static_cast<double>(c.x) - a.x;
@@ -154,8 +219,19 @@ std::uint64_t degenerate_count(const Surface& surface) {
         std::count_if(surface.triangles.begin(), surface.triangles.end(), has_no_area(surface)));
 }
 
-std::uint64_t drop_degenerate(Surface& surface) {
-    return std::erase_if(surface.triangles, has_no_area(surface));
+std::uint64_t drop_degenerate(Surface& surface, std::vector<std::uint32_t>* tags) {
+    const auto gone = has_no_area(surface);
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+        if (gone(surface.triangles[t])) continue;
+        surface.triangles[kept] = surface.triangles[t];
+        if (tags != nullptr) (*tags)[kept] = (*tags)[t];
+        ++kept;
+    }
+    const std::uint64_t dropped = surface.triangles.size() - kept;
+    surface.triangles.resize(kept);
+    if (tags != nullptr) tags->resize(kept);
+    return dropped;
 }
 
 }  // namespace regather::scenes

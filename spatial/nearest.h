@@ -54,7 +54,7 @@ public:
     std::uint32_t capacity() const { return capacity_; }
     std::size_t size() const { return keys_.size(); }
     bool full() const { return keys_.size() == capacity_; }
-    Neighbor operator[](std::size_t i) const {  ///< In no particular, but repeatable, order.
+    Neighbor operator[](std::size_t i) const {  ///< The farthest first when full(), then in some, repeatable, order.
         return {distance_of(keys_[i]), static_cast<std::uint32_t>(keys_[i])};
     }
     std::vector<Neighbor> nearest_first() const {

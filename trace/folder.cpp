@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr ColumnEntry table[] = {
     {"photon", "photon", "see docs/trace_format.md",
-     "photons in heap order of the left-balanced kd-tree; the split axis is in the flags", column_type<Photon>, true},
+     "photons in heap order of the left-balanced kd-tree; split axis and surface normal are in the flags", column_type<Photon>, true},
     {"query_position", "query", "scene units", "where the k nearest photons are asked for", column_type<Vec3>, true},
     {"query_pixel", "query", "y * image_width + x", "the pixel that the answer belongs to",
      column_type<std::uint32_t>, true},
@@ -132,10 +132,11 @@ void TraceWriter::finish(const TraceInfo& info) {
     }
     json left_out = json::array();
     for (const LeftOut& entry : info.left_out) left_out.push_back({{"what", entry.what}, {"why", entry.why}});
-    const json root{{"regather_trace", schema_version},
+    json root{{"regather_trace", schema_version},
                     {"scene", info.scene},
                     {"image_width", info.image_width},
                     {"image_height", info.image_height},
+                    {"map", info.map},
                     {"k", info.k},
                     {"seed", info.seed},
                     {"structure", info.structure},
@@ -147,6 +148,7 @@ void TraceWriter::finish(const TraceInfo& info) {
                     {"counts", info.counts},
                     {"left_out", left_out},
                     {"columns", columns}};
+    if (info.frame) root["frame"] = *info.frame;
     write_file(folder_ / "trace.json", root.dump(2) + "\n");
 }
 
@@ -172,6 +174,8 @@ TraceReader::TraceReader(fs::path folder) : folder_(std::move(folder)) {
     info_.scene = field("scene").text();
     info_.image_width = field("image_width").small_number();
     info_.image_height = field("image_height").small_number();
+    if (root.contains("map")) info_.map = field("map").text();
+    if (root.contains("frame")) info_.frame = field("frame").small_number();
     info_.k = field("k").small_number();
     info_.seed = field("seed").unsigned_number();
     info_.structure = field("structure").text();

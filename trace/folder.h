@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -35,6 +36,8 @@ struct LeftOut {
 struct TraceInfo {
     std::string scene;
     std::uint32_t image_width = 0, image_height = 0;  ///< [pixels]
+    std::string map = "global";          ///< Which photon map: "global" or "caustic".
+    std::optional<std::uint32_t> frame;  ///< Of the scene's camera path.
     std::uint32_t k = 0;
     std::uint64_t seed = 0;
     std::string structure = "left-balanced-kd";

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace regather::trace {
 
@@ -61,6 +62,49 @@ Vec3 decode_direction(const Photon& photon) {
     }();
     return {table.sin_theta[photon.theta] * table.cos_phi[photon.phi],
             table.sin_theta[photon.theta] * table.sin_phi[photon.phi], table.cos_theta[photon.theta]};
+}
+
+namespace {
+
+constexpr int octahedral_steps = 63;  // On either side of zero: 127 values of a coordinate, and 0 for none
+
+std::uint16_t octahedral(float coordinate) {
+    return static_cast<std::uint16_t>(octahedral_steps + 1 + std::lround(std::clamp(coordinate, -1.0f, 1.0f) * octahedral_steps));
+}
+
+}  // namespace
+
+void encode_normal(Vec3 n, Photon& photon) {
+    const float sum = std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z);
+    float u = n.x / sum, v = n.y / sum;
+    if (n.z < 0) {
+        const float folded = (1 - std::fabs(v)) * std::copysign(1.0f, u);
+        v = (1 - std::fabs(u)) * std::copysign(1.0f, v);
+        u = folded;
+    }
+    photon.flags = static_cast<std::uint16_t>((photon.flags & 3u) | octahedral(u) << 2 | octahedral(v) << 9);
+}
+
+Vec3 decode_normal(const Photon& photon) {
+    static const std::vector<Vec3> table = [] {
+        std::vector<Vec3> normals(128 * 128);
+        for (int v = 1; v < 128; ++v)
+            for (int u = 1; u < 128; ++u) {
+                double x = static_cast<double>(u - octahedral_steps - 1) / octahedral_steps;
+                double y = static_cast<double>(v - octahedral_steps - 1) / octahedral_steps;
+                const double z = 1 - std::fabs(x) - std::fabs(y);
+                if (z < 0) {
+                    const double folded = (1 - std::fabs(y)) * std::copysign(1.0, x);
+                    y = (1 - std::fabs(x)) * std::copysign(1.0, y);
+                    x = folded;
+                }
+                const double size = std::sqrt(x * x + y * y + z * z);
+                normals[static_cast<std::size_t>(v * 128 + u)] = {static_cast<float>(x / size), static_cast<float>(y / size),
+                                                                  static_cast<float>(z / size)};
+            }
+        return normals;
+    }();
+    return table[photon.flags >> 2];
 }
 
 }  // namespace regather::trace

@@ -23,7 +23,7 @@ Material glossy(float diffuse, float specular, float exponent) {
 /// Integral of f cos over the hemisphere by a fine midpoint rule.
 double albedo(const Material& material, double angle) {
     const Vec3 viewer{static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle))};
-    constexpr int rows = 1500, columns = 600;
+    constexpr int rows = 1000, columns = 300;
     double sum = 0;
     for (int i = 0; i < rows; ++i) {
         const double theta = (i + 0.5) * (pi / 2 / rows);
@@ -112,6 +112,137 @@ TEST(Bsdf, CosineSamplesHaveTheMomentsOfTheCosine) {
     }
     EXPECT_NEAR(z / samples, 2.0 / 3, 0.004);   // E[cos] = 2/3
     EXPECT_NEAR(z2 / samples, 0.5, 0.004);      // E[cos^2] = 1/2
+}
+
+/// The density of sample_direction over the hemisphere, by a rule that is fine around the lobe's peak; and the share of samples
+/// that find a direction.
+TEST(Bsdf, TheDensityOfDirectionsIntegratesToTheChanceOfFindingOne) {
+    for (const double angle : {0.0, 0.5, 1.2, 1.5533})  // to 89 degrees
+        for (const float exponent : {1.0f, 20.0f, 2000.0f}) {
+            const Material material = glossy(0.2f, 0.6f, exponent);
+            const Vec3 incoming{static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle))};
+            // Half vectors in polar coordinates with theta_h = (pi / 2) t^3; dw = 4 (in . h) dw_h.
+            constexpr int rows = 400, columns = 200;
+            double sum = 0;
+            for (int i = 0; i < rows; ++i) {
+                const double t = (i + 0.5) / rows, theta = pi / 2 * t * t * t, d_theta = pi / 2 * 3 * t * t / rows;
+                for (int j = 0; j < columns; ++j) {
+                    const double phi = (j + 0.5) * (2 * pi / columns);
+                    const double h[3] = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+                    const double along = h[0] * incoming.x + h[2] * incoming.z;
+                    if (along <= 0) continue;
+                    const Vec3 out{static_cast<float>(2 * along * h[0] - incoming.x), static_cast<float>(2 * along * h[1]),
+                                   static_cast<float>(2 * along * h[2] - incoming.z)};
+                    sum += scatter_pdf(material, {0, 0, 1}, incoming, out) * 4 * along * std::sin(theta) * d_theta *
+                           (2 * pi / columns);
+                }
+            }
+            constexpr int samples = 40000;
+            int found = 0;
+            for (int i = 0; i < samples; ++i) {
+                Sampler sampler(4, Stream::eye, static_cast<std::uint64_t>(i));
+                const double choice = sampler.fine_uniform();
+                const float u = sampler.uniform(), v = sampler.uniform();
+                Vec3 direction;
+                found += sample_direction(material, {0, 0, 1}, incoming, choice, u, v, direction);
+            }
+            const double share = static_cast<double>(found) / samples, error = std::sqrt(share * (1 - share) / samples);
+            EXPECT_NEAR(sum, share, 4 * error + 2e-3) << angle << " " << exponent;
+        }
+}
+
+/// E[g(direction) / pdf] is the integral of g: here of f cos, the albedo, where every sample is a ratio of densities.
+TEST(Bsdf, DirectionsAndTheirDensityGiveTheAlbedo) {
+    for (const float exponent : {2.0f, 50.0f, 500.0f}) {
+        const Material material = glossy(0.3f, 0.5f, exponent);
+        const Vec3 incoming{std::sin(0.5f), 0, std::cos(0.5f)};
+        double sum = 0, squares = 0;
+        constexpr int samples = 200000;
+        for (int i = 0; i < samples; ++i) {
+            Sampler sampler(8, Stream::eye, static_cast<std::uint64_t>(i));
+            const double choice = sampler.fine_uniform();
+            const float u = sampler.uniform(), v = sampler.uniform();
+            Vec3 direction;
+            if (!sample_direction(material, {0, 0, 1}, incoming, choice, u, v, direction)) continue;
+            const double weight = static_cast<double>(brdf(material, {0, 0, 1}, direction, incoming).x) * direction.z /
+                                  scatter_pdf(material, {0, 0, 1}, incoming, direction);
+            EXPECT_LT(weight, 4.4);
+            sum += weight;
+            squares += weight * weight;
+        }
+        const double mean = sum / samples, error = std::sqrt((squares / samples - mean * mean) / samples);
+        EXPECT_NEAR(mean, albedo(material, 0.5), 4 * error + 1e-4) << exponent;
+    }
+}
+
+/// Of a lobe of exponent 1e6 the half vector's sine^2 has mean 2 / (e + 3): its distribution survives the rounding of floats.
+TEST(Bsdf, ANarrowLobeKeepsItsShape) {
+    for (const float exponent : {1e4f, 1e6f}) {
+        const Material material = glossy(0, 0.9f, exponent);
+        const Vec3 incoming{std::sin(0.7f), 0, std::cos(0.7f)}, normal{0, 0, 1};
+        double sine2 = 0, weight = 0;
+        constexpr int samples = 100000;
+        for (int i = 0; i < samples; ++i) {
+            Sampler sampler(6, Stream::eye, static_cast<std::uint64_t>(i));
+            const double choice = sampler.fine_uniform();
+            const float u = sampler.uniform(), v = sampler.uniform();
+            Vec3 out;
+            ASSERT_TRUE(sample_direction(material, normal, incoming, choice, u, v, out));
+            ASSERT_NEAR(length(out), 1, 1e-6);
+            const double x = static_cast<double>(incoming.x) + out.x, y = out.y, z = static_cast<double>(incoming.z) + out.z;
+            sine2 += (x * x + y * y) / (x * x + y * y + z * z);
+            weight += static_cast<double>(brdf(material, normal, out, incoming).x) * out.z / scatter_pdf(material, normal, incoming, out);
+        }
+        EXPECT_NEAR(sine2 / samples * (exponent + 3) / 2, 1, 4 / std::sqrt(samples));  // about exponential: deviation = mean
+        EXPECT_NEAR(weight / samples, 0.9 * std::pow(std::cos(0.7), 2), 0.02);  // norm and Jacobian: 4 (in.h) cos 2 pi / (e + 1) norm
+    }
+}
+
+TEST(Bsdf, NothingIsInfiniteForAnyUnitVectors) {
+    const Vec3 normal = normalize(Vec3{0.3f, -0.5f, 0.7f});
+    const Frame frame(normal);
+    for (const float exponent : {1.0f, 1e3f, 1e6f})
+        for (const double elevation : {1e-30, 1e-7, 1.7e-5, 0.5, 1.5707})
+            for (const double other : {1e-30, 1e-7, 1.7e-5, 0.5, 1.5707})
+                for (int turn = 0; turn < 8; ++turn) {
+                    const auto at = [&](double e, double phi) {
+                        return frame.to_world({static_cast<float>(std::cos(e) * std::cos(phi)),
+                                               static_cast<float>(std::cos(e) * std::sin(phi)), static_cast<float>(std::sin(e))});
+                    };
+                    const Vec3 in = at(elevation, 0), out = at(other, turn * pi / 4);
+                    const Material material = glossy(0.5f, 0.5f, exponent);
+                    EXPECT_TRUE(is_finite(brdf(material, normal, out, in)));
+                    EXPECT_TRUE(std::isfinite(scatter_pdf(material, normal, in, out)));
+                    EXPECT_FLOAT_EQ(brdf(material, normal, out, in).x, brdf(material, normal, in, out).x);  // reciprocity
+                    for (const float eta : {1.0001f, 1 / 1.0001f, 5.0f, 0.2f}) {
+                        const float share = fresnel(dot(normal, in), eta);
+                        EXPECT_GE(share, 0);
+                        EXPECT_LE(share, 1);
+                        Vec3 through;
+                        if (dot(normal, in) > 0 && refract(in, normal, eta, through)) {
+                            EXPECT_NEAR(length(through), 1, 1e-6);
+                            EXPECT_LT(dot(normal, through), 1e-6f);
+                        }
+                    }
+                    Sampler sampler(1, Stream::eye, static_cast<std::uint64_t>(turn));
+                    const Scatter next = scatter(material, normal, in, sampler);
+                    EXPECT_TRUE(is_finite(next.weight) && is_finite(next.direction));
+                    EXPECT_LT(next.weight.x, 4.4f);
+                }
+}
+
+/// Against the same formulas in long double, at 89.999 degrees and for indices near 1.
+TEST(Bsdf, FresnelAtGrazingAnglesAgreesWithLongDouble) {
+    for (const float eta : {1.0001f, 1.5f, 5.0f, 1 / 1.5f})
+        for (const float cosine : {1.0f, 0.9f, 0.1f, 1.7453e-5f}) {
+            const long double c = cosine, e = eta, sine = std::sqrt(1 - c * c), inner = sine / e;
+            long double expected = 1;
+            if (inner < 1) {
+                const long double t = std::sqrt(1 - inner * inner), a = (e * c - t) / (e * c + t), b = (c - e * t) / (c + e * t);
+                expected = (a * a + b * b) / 2;
+            }
+            EXPECT_NEAR(fresnel(cosine, eta), static_cast<double>(expected), 1e-6 * static_cast<double>(expected) + 1e-12);
+        }
 }
 
 }  // namespace

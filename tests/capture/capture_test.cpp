@@ -66,7 +66,7 @@ TEST(Capture, TheImageAndTheTraceAreTheSameOnAnyNumberOfThreadsAndInAnyOrder) {
         CaptureConfig config = small();
         config.order = std::move(order);
         trace::TraceWriter writer(scratch / "trace", false);
-        Captured captured = capture(scene, config, &writer);
+        Captured captured = capture(scene, config, {&writer});
         writer.finish(captured.info);
         return std::pair(exr_hash(captured.image), trace::TraceReader(scratch / "trace").checksum());
     };
@@ -79,7 +79,7 @@ TEST(Capture, TheImageAndTheTraceAreTheSameOnAnyNumberOfThreadsAndInAnyOrder) {
 
 TEST(Capture, TheExrHasTheChecksumThatItAlwaysHad) {
     // Pinned: a change of this number is a change of the picture.
-    const Captured captured = capture(scenes::load_scene("box"), small(), nullptr);
+    const Captured captured = capture(scenes::load_scene("box"), small());
     EXPECT_EQ(pixel_hash(captured.image), 16561686354209860317u);
     const Scratch scratch;
     write_exr(scratch / "image.exr", captured.image);
@@ -91,14 +91,14 @@ TEST(Capture, AnotherSeedIsAnotherPicture) {
     CaptureConfig other = small();
     other.pixels.seed = other.photon.seed = 6;
     const scenes::Scene scene = scenes::load_scene("box");
-    EXPECT_NE(pixel_hash(capture(scene, small(), nullptr).image), pixel_hash(capture(scene, other, nullptr).image));
+    EXPECT_NE(pixel_hash(capture(scene, small()).image), pixel_hash(capture(scene, other, nullptr).image));
 }
 
 TEST(Capture, DecodedWalksAreTheSearchsOwnVisitsOnEveryQuery) {
     for (const char* name : {"box", "room", "furnace"}) {
         const Scratch scratch;
         trace::TraceWriter writer(scratch / "trace", false);
-        Captured captured = capture(scenes::load_scene(name), small(), &writer);
+        Captured captured = capture(scenes::load_scene(name), small(), {&writer});
         writer.finish(captured.info);
         trace::TraceReader trace(scratch / "trace");
         const auto photons = trace.column<trace::Photon>("photon");
@@ -136,7 +136,7 @@ TEST(Capture, ARectangleOverAFloorGivesTheAnalyticIrradiance) {
     const double quarter = 2 * (a / s) * std::atan(a / s) / (2 * std::numbers::pi), form_factor = 4 * quarter;
     CaptureConfig config = small();
     config.pixels = {.width = 1, .height = 1, .gather_rays = 0, .shadow_rays = 10000, .max_specular = 4, .seed = 1};
-    const Vec3 pixel = capture(light_over_floor(), config, nullptr).image.pixels[0];
+    const Vec3 pixel = capture(light_over_floor(), config).image.pixels[0];
     EXPECT_NEAR(pixel.x, 0.8 * 10 * form_factor, 0.001 * 0.8 * 10);
     EXPECT_NEAR(pixel.y, 0.4 * 10 * form_factor, 0.001 * 0.4 * 10);
     EXPECT_NEAR(pixel.z, 0.2 * 10 * form_factor, 0.001 * 0.2 * 10);
@@ -158,7 +158,7 @@ TEST(Capture, TheFurnaceHasTheRadianceThatTheoryGives) {
         config.photon = {.photons = 150000, .seed = seed};
         config.gather = {.k = 1000, .radius = 0.005f};
         double sum = 0;
-        const Image image = capture(scene, config, nullptr).image;
+        const Image image = capture(scene, config).image;
         for (const Vec3 p : image.pixels) sum += (static_cast<double>(p.x) + p.y + p.z) / 3;
         means.push_back(sum / static_cast<double>(image.pixels.size()));
     }
@@ -180,7 +180,7 @@ TEST(Capture, WhatNobodyNeedsIsLeftOutAndSaid) {
     dark.lights.clear();
     dark.triangle_light.assign(dark.triangle_light.size(), -1);
     trace::TraceWriter writer(scratch / "trace", false);
-    Captured captured = capture(dark, config, &writer);
+    Captured captured = capture(dark, config, {&writer});
     writer.finish(captured.info);
     const trace::TraceReader trace(scratch / "trace");
     EXPECT_TRUE(trace.has("query_leaf_bvh"));
@@ -194,10 +194,102 @@ TEST(Capture, WhatNobodyNeedsIsLeftOutAndSaid) {
     for (const Vec3 pixel : captured.image.pixels) EXPECT_EQ(pixel, Vec3{});
 }
 
+TEST(Capture, ManyLightsGiveTheIrradianceOfTheOneTheyMakeUp) {
+    // The light of the test before, cut into 9: more than are sampled one by one.
+    scenes::Scene scene = light_over_floor();
+    const scenes::AreaLight whole = scene.lights[0];
+    scene.lights.clear();
+    for (int i = 0; i < 9; ++i) {
+        scenes::AreaLight part = whole;
+        part.edge_u = whole.edge_u * (1 / 3.0f);
+        part.edge_v = whole.edge_v * (1 / 3.0f);
+        part.corner = whole.corner + part.edge_u * static_cast<float>(i % 3) + part.edge_v * static_cast<float>(i / 3);
+        scene.lights.push_back(part);
+    }
+    CaptureConfig config = small();
+    config.pixels = {.width = 1, .height = 1, .gather_rays = 0, .shadow_rays = 10000, .max_specular = 4, .seed = 1};
+    const Vec3 pixel = capture(scene, config).image.pixels[0];
+    const double a = 0.5, s = std::sqrt(1 + a * a), form_factor = 8 * (a / s) * std::atan(a / s) / (2 * std::numbers::pi);
+    EXPECT_NEAR(pixel.x, 0.8 * 10 * form_factor, 0.004 * 0.8 * 10);
+}
+
+TEST(Capture, SeenDirectlyTheFurnaceIsAsBright) {
+    // Equation 2 alone: emission 1, and half of the irradiance over pi of all photons; gathers of a fixed radius in a wall's middle.
+    scenes::Scene scene = scenes::load_scene("furnace");
+    scene.camera.position = {0.5f, 0.2f, 0.5f};
+    scene.camera.target = {0.5f, 1, 0.5f};
+    scene.camera.vertical_fov_degrees = 30;
+    CaptureConfig config;
+    config.pixels = {.width = 16, .height = 16, .max_specular = 4, .visualisation = Visualisation::direct, .seed = 1};
+    config.photon = {.photons = 600000, .seed = 1};
+    config.gather = {.k = 10000, .radius = 0.02f};  // about 100 photons: a hundredth over the 256 pixels, which overlap little
+    const Captured captured = capture(scene, config);
+    double sum = 0;
+    for (const Vec3 p : captured.image.pixels) sum += (static_cast<double>(p.x) + p.y + p.z) / 3;
+    EXPECT_NEAR(sum / 256, 2, 0.03);
+    EXPECT_EQ(captured.info.counts["shadow_rays"], 0u);
+    EXPECT_EQ(captured.info.counts["gather_rays"], 0u);
+    EXPECT_EQ(captured.info.queries, 256u);
+}
+
+TEST(Capture, TheLayersMakeUpTheImage) {
+    CaptureConfig config = small();
+    config.pixels.samples = 3;
+    config.caustic.photons = 2000;
+    const Captured captured = capture(scenes::load_scene("room"), config);
+    std::array<double, layer_names.size()> light{};
+    for (std::size_t i = 0; i < captured.image.pixels.size(); ++i) {
+        Vec3 sum;
+        for (std::size_t l = 0; l < layer_names.size(); ++l) {
+            sum += captured.layers.images[l].pixels[i];
+            light[l] += static_cast<double>(captured.layers.images[l].pixels[i].y);
+        }
+        const Vec3 pixel = captured.image.pixels[i];
+        EXPECT_LT(length(sum - pixel), 1e-5f * (1 + length(pixel)));
+    }
+    for (std::size_t l = 0; l < light.size(); ++l) EXPECT_GT(light[l], 0) << layer_names[l];
+    EXPECT_EQ(captured.layers.variance.size(), captured.image.pixels.size());
+    EXPECT_TRUE(capture(scenes::load_scene("box"), small()).layers.variance.empty());
+}
+
+TEST(Capture, TheVarianceOfAPixelIsTheSquareOfItsScatterOverSeeds) {
+    // Photons play no part: no gather rays. 64 seeds of 4 eye rays with one shadow ray each, and the mean of the variances they tell.
+    scenes::Scene scene = light_over_floor();
+    scene.camera.vertical_fov_degrees = 60;
+    CaptureConfig config;
+    config.pixels = {.width = 2, .height = 2, .gather_rays = 0, .shadow_rays = 1, .samples = 4};
+    config.photon.photons = 0;
+    double told = 0, mean = 0, squares = 0;
+    for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+        config.pixels.seed = seed;
+        const Captured captured = capture(scene, config);
+        const Vec3 p = captured.image.pixels[3];
+        const double y = 0.2126 * p.x + 0.7152 * p.y + 0.0722 * p.z;
+        told += static_cast<double>(captured.layers.variance[3]) / 400;
+        mean += y / 400;
+        squares += y * y / 400;
+    }
+    // Stratified eye rays scatter less than independent ones would: the told variance is an upper bound, and not far above.
+    const double scatter = squares - mean * mean;
+    EXPECT_GT(told, 0.85 * scatter);
+    EXPECT_LT(told, 6 * scatter);
+}
+
+TEST(Capture, EveryPixelGetsItsGatherRaysWhateverTheNumberOfEyeRays) {
+    for (const std::uint32_t samples : {1u, 2u, 4u, 9u}) {
+        CaptureConfig config = small();
+        config.pixels.samples = samples;
+        const Captured captured = capture(closed_box(0.5), config);
+        EXPECT_EQ(captured.info.counts["eye_rays"], 24u * 16 * samples);
+        EXPECT_GE(captured.info.counts["gather_rays"], 24u * 16 * 9 * 98 / 100) << samples;  // an eye ray may see the black light
+        EXPECT_LE(captured.info.counts["gather_rays"], 24u * 16 * 9) << samples;
+    }
+}
+
 TEST(Capture, EveryPixelGetsItsGatherRays) {
     const Scratch scratch;
     trace::TraceWriter writer(scratch / "trace", false);
-    Captured captured = capture(closed_box(0.5), small(), &writer);
+    Captured captured = capture(closed_box(0.5), small(), {&writer});
     writer.finish(captured.info);
     // A closed box without specular surfaces: each gather ray makes a query unless it ends on the black light.
     EXPECT_EQ(captured.info.counts["gather_rays"], 24u * 16 * 9);

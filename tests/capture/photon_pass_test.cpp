@@ -12,7 +12,7 @@ namespace regather::capture {
 namespace {
 
 PhotonPass trace(const scenes::Scene& scene, std::uint32_t photons, std::uint64_t seed = 1) {
-    return trace_photons(scene, RayCaster(scene), {.photons = photons, .seed = seed});
+    return trace_photons(scene, RayCaster(scene), LightSampler(scene), {.photons = photons, .seed = seed});
 }
 
 Power sum_of(const std::vector<trace::Photon>& photons) {

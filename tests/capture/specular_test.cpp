@@ -25,9 +25,10 @@ scenes::Scene looking_at(const std::string& material) {
 Vec3 seen(const scenes::Scene& scene) {
     const RayCaster caster(scene);
     PixelWork work;
-    QueryPass(scene, caster, {.width = 1, .height = 1, .gather_rays = 4, .shadow_rays = 4, .max_specular = 8, .seed = 1}, true)
-        .run(0, 1, work);
-    return work.radiance[0];
+    const LightSampler lights(scene);
+    const QueryConfig config{.width = 1, .height = 1, .gather_rays = 4, .shadow_rays = 4, .max_specular = 8, .seed = 1};
+    QueryPass(scene, caster, lights, config, {}).run(0, 1, work);
+    return work.radiance[0][static_cast<std::size_t>(Layer::specular)];
 }
 
 TEST(QueryPass, AMirrorShowsTheLightBehindTheCameraTimesItsReflectance) {
@@ -48,7 +49,7 @@ std::pair<double, double> mean_radiance(const scenes::Scene& scene, std::uint32_
                      .seed = 2};
     config.photon = {.photons = 100000, .seed = 2};
     config.gather = {.k = 1000, .radius = 0.01f};
-    const Image image = capture(scene, config, nullptr).image;
+    const Image image = capture(scene, config).image;
     double sum = 0, squares = 0;
     for (const Vec3 p : image.pixels) {
         sum += p.x;

@@ -134,18 +134,20 @@ TEST(LoaderRefuses, UnknownKeysAndNamesTheNearest) {
         {{.shapes = R"({"typ": "sphere", "material": "white"})"},
          "shapes[0].typ: found unknown key \"typ\", expected \"type\" (keys of a shape: type, material, "
          "corner, edge_u, "
-         "edge_v, divide, min, max, rotate_z_degrees, center, radius, segments, file, scale, translate)"},
+         "edge_v, divide, corners, min, max, rotate_z_degrees, center, radius, segments, from, to, radius_to, "
+         "smooth, profile, axis, tube, tube_segments, size, amplitude, wavelength, phase_degrees, depth, cells, "
+         "file, materials, up_axis, scale, translate, object, at)"},
     });
 }
 
 TEST(LoaderRefuses, MissingKeys) {
     expect_refusals({
         {{.camera = R"({"position": [0, 0, 0], "up": [0, 0, 1], "vertical_fov_degrees": 50})"},
-         "camera.target: found nothing, expected three coordinates [m], each from -1e6 to 1e6"},
+         "camera.target: found nothing, expected three coordinates [m], each from -1e12 to 1e12"},
         {{.shapes = R"({"type": "sphere", "material": "white", "center": [0, 0, 0], "segments": 9})"},
          "shapes[0].radius: found nothing, expected a length [m], above 0 and at most 1e6"},
         {{.shapes = R"({"material": "white"})"},
-         "shapes[0].type: found nothing, expected \"quad\", \"box\", \"sphere\" or \"mesh\""},
+         "shapes[0].type: found nothing, expected \"quad\", \"patch\", \"box\", \"sphere\", \"cylinder\", \"lathe\", \"torus\", \"ripple\", \"mesh\" or \"instances\""},
         {{.materials = R"("white": {"diffuse": [0, 0, 0]})"},
          "materials.white.kind: found nothing, expected \"diffuse\", \"glossy\", \"mirror\" or "
          "\"dielectric\""},
@@ -164,26 +166,26 @@ TEST(LoaderRefuses, WrongTypes) {
         {{.materials = R"("white": 5)"}, "materials.white: found 5, expected an object"},
         {{.shapes = "null"}, "shapes[0]: found null, expected an object"},
         {{.shapes = quad("\"here\"", "[1, 0, 0]", "[0, 1, 0]")},
-         "shapes[0].corner: found \"here\", expected three coordinates [m], each from -1e6 to 1e6"},
+         "shapes[0].corner: found \"here\", expected three coordinates [m], each from -1e12 to 1e12"},
         {{.shapes = quad("[0, true, 0]", "[1, 0, 0]", "[0, 1, 0]")},
-         "shapes[0].corner[1]: found true, expected three coordinates [m], each from -1e6 to 1e6"},
+         "shapes[0].corner[1]: found true, expected three coordinates [m], each from -1e12 to 1e12"},
         {{.shapes = R"({"type": 4})"},
-         "shapes[0].type: found 4, expected \"quad\", \"box\", \"sphere\" or \"mesh\""},
+         "shapes[0].type: found 4, expected \"quad\", \"patch\", \"box\", \"sphere\", \"cylinder\", \"lathe\", \"torus\", \"ripple\", \"mesh\" or \"instances\""},
         {{.shapes = sphere("\"1\"", "9")},
          "shapes[0].radius: found \"1\", expected a length [m], above 0 and at most 1e6"},
     });
     EXPECT_EQ(refusal("[]"), "t.json: scene: found an empty list, expected an object");
     EXPECT_EQ(
         refusal(R"({"name": "t", "camera": {}, "shapes": {}})"),
-        "t.json: camera.position: found nothing, expected three coordinates [m], each from -1e6 to 1e6");
+        "t.json: camera.position: found nothing, expected three coordinates [m], each from -1e12 to 1e12");
 }
 
 TEST(LoaderRefuses, WrongLengths) {
     expect_refusals({
         {{.shapes = quad("[0, 0]", "[1, 0, 0]", "[0, 1, 0]")},
-         "shapes[0].corner: found a list of 2, expected three coordinates [m], each from -1e6 to 1e6"},
+         "shapes[0].corner: found a list of 2, expected three coordinates [m], each from -1e12 to 1e12"},
         {{.shapes = quad("[0, 0, 0, 0]", "[1, 0, 0]", "[0, 1, 0]")},
-         "shapes[0].corner: found a list of 4, expected three coordinates [m], each from -1e6 to 1e6"},
+         "shapes[0].corner: found a list of 4, expected three coordinates [m], each from -1e12 to 1e12"},
         {{.shapes = quad("[0, 0, 0]", "[1, 0, 0]", "[0, 1, 0]", R"(, "divide": [1, 2, 3])")},
          "shapes[0].divide: found a list of 3, expected two whole numbers of cells, each from 1 to 10000"},
         {{.shapes = box("[0, 0, 0]", "[1, 1, 1]", R"(, "divide": [1, 2])")},
@@ -236,11 +238,10 @@ TEST(LoaderRefuses, ShapesWithoutAreaOrVolume) {
          "shapes[0].radius: found 0, expected a length [m], above 0 and at most 1e6"},
         {{.shapes = sphere("-1", "9")},
          "shapes[0].radius: found -1, expected a length [m], above 0 and at most 1e6"},
-        {{.shapes =
-              R"({"type": "sphere", "material": "white", "center": [9e5, 9e5, 9e5], "radius": 0.001, "segments": 3})"},
-         "shapes[0]: found 6 of 6 triangles without area in 32-bit floats, expected a larger or less divided "
-         "shape, or one "
-         "nearer to the origin"},
+        {{.shapes = quad("[0, 0, 0]", "[1, 0, 0]", "[0, 1, 0]") +
+                    R"(, {"type": "sphere", "material": "white", "center": [9e5, 9e5, 9e5], "radius": 0.001, "segments": 3})"},
+         "shapes[1]: found 6 of 6 triangles without area in 32-bit floats, expected a larger or less divided "
+         "shape, or one nearer to the others"},
     });
 }
 
@@ -353,10 +354,10 @@ TEST(LoaderRefuses, NamesAndPathsThatLeadNowhere) {
     };
     EXPECT_EQ(refused_by("rom"),
               "usage: scene: found \"rom\", expected \"room\" or a JSON file (embedded scenes: room, box, "
-              "furnace)");
+              "furnace, house, arena, cornell, caustics, prism)");
     EXPECT_EQ(refused_by("no/such.json"),
               "data: no/such.json: found no file, expected a JSON scene or one of the embedded scenes room, "
-              "box, furnace");
+              "box, furnace, house, arena, cornell, caustics, prism");
     const ScratchFolder folder;
     EXPECT_EQ(refused_by(folder.path().string()),
               "data: " + folder.path().string() + ": found no regular file, expected a JSON scene");

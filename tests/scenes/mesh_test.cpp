@@ -92,9 +92,9 @@ TEST_F(MeshFile, FacesWithoutAreaAreDroppedAndCounted) {
 
 TEST_F(MeshFile, MissingForeignAndEmptyFilesAreRefused) {
     EXPECT_THAT(mesh_refusal(folder_.path() / "none.obj"),
-                HasSubstr("found no file, expected an OBJ or PLY mesh"));
+                HasSubstr("found no file, expected an OBJ, PLY or glTF mesh"));
     EXPECT_THAT(mesh_refusal(folder_.write("a.stl", "solid")),
-                HasSubstr("found the extension \".stl\", expected .obj or .ply"));
+                HasSubstr("found the extension \".stl\", expected .obj, .ply, .gltf or .glb"));
     EXPECT_THAT(mesh_refusal(folder_.write("e.obj", "")), HasSubstr("found"));
     EXPECT_THAT(mesh_refusal(folder_.write("e.ply", "")), HasSubstr("found"));
     EXPECT_THAT(mesh_refusal(folder_.write("v.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n")), HasSubstr("found"));
@@ -189,7 +189,7 @@ TEST_F(MeshFile, ASceneNamesItsFieldAndTheMeshFileInARefusal) {
     const std::string shape = R"({"type": "mesh", "material": "white", "file": "none.ply"})";
     EXPECT_EQ(refusal(SceneText{.shapes = shape}.text(), folder_.path()),
               "t.json: shapes[0].file: found \"none.ply\", expected a readable mesh (" +
-                  (folder_.path() / "none.ply").string() + ": found no file, expected an OBJ or PLY mesh)");
+                  (folder_.path() / "none.ply").string() + ": found no file, expected an OBJ, PLY or glTF mesh)");
 }
 
 TEST_F(MeshFile, ASceneCountsTheFacesThatItDropped) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scenes/scene_text.h"
+#include "trace/error.h"
 
 namespace regather::scenes {
 namespace {
@@ -29,7 +30,9 @@ TEST(Needs, ADiffuseSceneWithoutLightsNeedsNothing) {
     for (const Need* need : needs.list()) EXPECT_FALSE(need->needed) << need->part;
     EXPECT_EQ(needs.shadow_rays.reason, "The scene has no light of area.");
     EXPECT_EQ(needs.specular_rays.reason,
-              "No triangle is a mirror or a dielectric: no path makes a caustic.");
+              "No triangle is a mirror or a dielectric.");
+    EXPECT_EQ(needs.caustics.reason, "No triangle is a mirror or a dielectric: no path makes a caustic.");
+    EXPECT_EQ(needs.camera_path.reason, "The camera stands still.");
     EXPECT_EQ(needs.glossy_lobes.reason, "No triangle is glossy.");
 }
 
@@ -50,6 +53,27 @@ TEST(Needs, MirrorsAndDielectricsNeedSpecularRays) {
         EXPECT_EQ(needs.specular_rays.reason,
                   "8 triangles are of mirror or dielectric materials (" + material + ").");
     }
+}
+
+TEST(Needs, ACausticNeedsALightAndASpecularSurface) {
+    const auto caustics = [](const std::string& lights, const std::string& material) {
+        return needs_of(parse(SceneText{.materials = all_materials, .shapes = sphere(material), .lights = lights}.text())).caustics;
+    };
+    EXPECT_TRUE(caustics(light, "glass").needed);
+    EXPECT_TRUE(caustics(light, "silver").needed);
+    EXPECT_FALSE(caustics(light, "lacquer").needed);
+    EXPECT_FALSE(caustics("", "glass").needed);
+    EXPECT_EQ(caustics("", "glass").reason, "The scene has no light of area whose light could be gathered.");
+}
+
+TEST(Needs, APartCanBeKeptThoughItIsNotNeeded) {
+    Needs needs = needs_of(parse(SceneText{.materials = all_materials}.text()));
+    needs.keep({"caustics"});
+    EXPECT_TRUE(needs.caustics.needed);
+    EXPECT_FALSE(needs.shadow_rays.needed);
+    EXPECT_THAT(needs.caustics.reason, HasSubstr("Kept although it is not needed"));
+    for (const char* part : {"caustic", "", "camera_path", "glossy_lobes"})
+        EXPECT_THROW(needs.keep({part}), trace::UsageError) << part;
 }
 
 TEST(Needs, GlossNeedsLobesUnlessItsSpecularPartIsZero) {

@@ -1,0 +1,68 @@
+// capture/pixel_paths.h -- all that one pixel asks for: eye rays, specular recursion, direct light by stratified shadow rays, and
+// the points where photons are gathered (the paper, section 5.1, Figures 2 and 3, equations 2 and 3).
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "capture/query_pass.h"
+#include "capture/surface.h"
+#include "capture/view_plane.h"
+
+namespace regather::capture {
+
+/// The pixels of one block, one after the other; scratch memory is kept between them.
+class PixelPaths {
+public:
+    PixelPaths(const Scene& scene, const RayCaster& caster, const LightSampler& lights, const QueryConfig& config, PassParts parts,
+               PixelWork& work);
+
+    void run(std::uint32_t pixel);
+
+private:
+    struct Shaded {
+        Vec3 position, normal, side, to_viewer, throughput;
+        const Material* material;
+        std::uint32_t triangle;
+        bool specular;  // the eye sees it by way of a specular surface
+        std::uint32_t gather_rays = 0;
+    };
+    struct Branch {
+        Vec3 origin, direction, throughput;
+    };
+
+    void count(RayKind kind, Vec3 origin, Vec3 direction, float extent);
+    void add(Stage stage, Layer layer, Vec3 radiance);
+    Vec3 emitted(const Hit& hit, bool front) const;
+    std::uint64_t stream_index(std::size_t shaded) const;
+
+    Branch mirrored(const Hit& hit, const Surface& at, Vec3 incoming, Vec3 throughput) const;
+    bool transmitted(const Hit& hit, const Surface& at, Vec3 incoming, Vec3 throughput, Branch& branch) const;
+    Branch choose_specular(const Hit& hit, const Surface& at, Vec3 incoming, Vec3 throughput, Sampler& sampler) const;
+    void follow_eye(Vec3 origin, Vec3 direction, Vec3 throughput, std::uint32_t specular, bool may_split, Sampler& sampler);
+
+    void add_direct_light(const Shaded& at, std::size_t number);
+    void add_light_of(const Shaded& at, Vec3 origin, const LightPoint& point, double density);
+    void ask(Queries& queries, const Shaded& at, Layer layer);
+    void share_gather_rays(std::uint32_t rays);
+    void add_gather_rays(const Shaded& at, std::size_t number);
+    void follow_gather(const Shaded& at, Vec3 direction, Vec3 weight, double density, Sampler& sampler);
+    double light_density(std::uint32_t light) const;
+
+    const Scene& scene_;
+    const RayCaster& caster_;
+    const LightSampler& lights_;
+    const QueryConfig& config_;
+    const PassParts parts_;
+    const ViewPlane plane_;
+    PixelWork& work_;
+
+    std::uint32_t pixel_ = 0, sample_ = 0;
+    std::array<std::array<double, 3>, layer_names.size()> radiance_{};
+    std::array<Shaded, 2> shaded_{};  // one dielectric splits an eye path
+    std::size_t shaded_points_ = 0;
+    std::vector<std::uint32_t> sequence_;
+    View view_;
+};
+
+}  // namespace regather::capture

@@ -1,0 +1,94 @@
+// regather stability -- stiff and extreme cases, each against an analytic or double-precision truth.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/progress.h"
+#include "cli/version.h"
+#include "results/chart.h"
+#include "results/csv.h"
+#include "results/provenance.h"
+#include "results/stability.h"
+#include "study/stability.h"
+
+namespace regather::cli {
+namespace {
+
+struct Options {
+    std::vector<std::string> only;
+    std::filesystem::path folder;
+    bool quick = false, list = false, force = false;
+};
+
+std::vector<const study::CaseGroup*> wanted_groups(const Options& options) {
+    std::vector<const study::CaseGroup*> groups;
+    for (const std::string& name : options.only) groups.push_back(&study::case_group(name));
+    if (groups.empty())
+        for (const study::CaseGroup& group : study::case_groups()) groups.push_back(&group);
+    return groups;
+}
+
+void run(const Options& options) {
+    const auto groups = wanted_groups(options);
+    if (options.list) {
+        for (const study::CaseGroup* group : groups) {
+            fmt::print("{:<10} {}\n", group->name, group->summary);
+            for (const study::Case& one : group->cases()) fmt::print("    {}\n", one.name);
+        }
+        return;
+    }
+    const std::filesystem::path csv = options.folder / "stability.csv";
+    if (!options.folder.empty()) results::refuse_to_overwrite(csv, options.force);
+
+    std::vector<std::pair<const study::CaseGroup*, study::Case>> cases;
+    for (const study::CaseGroup* group : groups)
+        for (study::Case& one : group->cases()) cases.emplace_back(group, std::move(one));
+    std::vector<results::StabilityRow> rows;
+    {
+        Progress progress;
+        for (const auto& [group, one] : cases) {
+            progress.update(fmt::format("{}: {}", group->name, one.name), "cases", rows.size(), cases.size());
+            rows.push_back(study::run_case(*group, one, options.quick ? study::Effort::quick : study::Effort::full));
+        }
+    }
+    fmt::print("{}", results::stability_table(rows));
+    if (!options.folder.empty()) {
+        results::write_csv<results::StabilityRow>(csv, rows);
+        results::write_provenance(csv, {command_line(), version(), git_revision(), {}}, {{"quick", options.quick}});
+        results::Rows all;
+        all.stability = rows;
+        fmt::print("{}\n", csv.string());
+        const std::string kind = "stability";
+        for (const results::Drawn& drawn : results::write_charts(options.folder, all, std::span(&kind, 1), {}))
+            for (const auto& file : drawn.files) fmt::print("{}\n", file.string());
+    }
+    std::size_t failed = 0;
+    for (const results::StabilityRow& row : rows) failed += !row.passed.value_or(false);
+    if (failed > 0) throw std::runtime_error(fmt::format("{} of {} cases failed", failed, rows.size()));
+}
+
+}  // namespace
+
+void add_stability(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("stability", "measure errors in stiff and extreme cases against what is allowed");
+    std::string names;
+    for (const study::CaseGroup& group : study::case_groups()) names += fmt::format("{}{}", names.empty() ? "" : ", ", group.name);
+    command->add_option("--only", options->only, fmt::format("groups of cases: {}", names))->delimiter(',');
+    command->add_option("-o,--output", options->folder, "write stability.csv and the chart here");
+    command->add_flag("--quick", options->quick, "fewer rays, photons and samples");
+    command->add_flag("--list", options->list, "name the cases and stop");
+    command->add_flag("--force", options->force, "overwrite the CSV");
+    command->footer("Exit code 1 when a case fails. Meaning and bounds of the cases: docs/stability.md\n"
+                    "Example:\n  regather stability --only leaks,lobes -o out/stability");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace regather::cli

@@ -1,0 +1,62 @@
+#include "study/stability.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <exception>
+
+#include "trace/error.h"
+
+namespace regather::study {
+namespace {
+
+constexpr CaseGroup groups[] = {
+    {"place", "the same scene scaled by 1e-6 .. 1e6 and moved by up to 1e6 of its size", scale_and_place_cases},
+    {"transport", "albedos up to 0.9999, keyholes, powers over 12 decades", stiff_transport_cases},
+    {"sums", "a billion contributions", long_sum_cases},
+    {"lobes", "exponents 1 .. 1e6, grazing angles, indices of refraction 1.0001 and 5", peaked_lobe_cases},
+    {"samplers", "chi-squared tests of every sampler", sampler_cases},
+    {"leaks", "rays in closed boxes: how many leave", leak_cases},
+    {"geometry", "slivers, duplicates, coincident walls, touching lights, cameras on surfaces", degenerate_geometry_cases},
+    {"maps", "photons in a point, on a line, in a plane; radius zero; k = 1 and k = all; the 20-byte photon",
+     degenerate_map_cases},
+    {"keys", "space-filling curves on boxes of extreme proportions", keys_on_boxes_cases},
+};
+
+}  // namespace
+
+std::span<const CaseGroup> case_groups() {
+    return groups;
+}
+
+const CaseGroup& case_group(std::string_view name) {
+    std::string names;
+    for (const CaseGroup& group : groups) {
+        if (group.name == name) return group;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", group.name);
+    }
+    throw trace::UsageError(fmt::format("group of cases: found \"{}\", expected one of {}", name, names));
+}
+
+results::StabilityRow run_case(const CaseGroup& group, const Case& one, Effort effort) {
+    results::StabilityRow row;
+    row.group = group.name;
+    row.stability_case = one.name;
+    row.quantity = one.quantity;
+    row.reason = one.reason;
+    row.passed = false;
+    const auto start = std::chrono::steady_clock::now();
+    try {
+        const Reading reading = one.measure(effort);
+        if (std::isfinite(reading.error)) row.error = reading.error;
+        if (std::isfinite(reading.allowed)) row.allowed_error = reading.allowed;
+        row.passed = row.error && row.allowed_error && reading.error <= reading.allowed;
+    } catch (const std::exception& error) {
+        row.reason = error.what();
+    }
+    row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return row;
+}
+
+}  // namespace regather::study
