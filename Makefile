@@ -4,7 +4,7 @@
 PRESET ?= release
 OUT ?= out/room
 
-.PHONY: run test setup build bench clean
+.PHONY: run test setup build bench clean scenes-packages
 
 run: build
 	build/$(PRESET)/regather run scenes/experiments/room-small.json -o $(OUT)
@@ -18,6 +18,10 @@ build: setup
 
 setup:
 	@cmake/install_packages.sh packages.txt
+
+# Scenes of others, for `regather import`: 0.5 GB, and never needed by run or test.
+scenes-packages:
+	@cmake/install_packages.sh packages-scenes.txt
 
 bench: build
 	bench/run.sh build/$(PRESET)

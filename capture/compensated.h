@@ -1,6 +1,7 @@
-// capture/compensated.h -- a sum whose error does not grow with the number of summands: Neumaier, "Rundungsfehleranalyse einiger
-// Verfahren zur Summation endlicher Summen", ZAMM 54, 1974. In double: |error| <= 2^-53 |sum| + 2^-105 n sum |x|. Needs strict
-// floating point (no -ffast-math). The order of the summands still matters to the last bit.
+// capture/compensated.h -- a sum whose error does not grow with the number of summands: Neumaier,
+// "Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen", ZAMM 54, 1974. In double: |error|
+// <= 2^-53 |sum| + 2^-105 n sum |x|. Needs strict floating point (no -ffast-math). The order of the summands
+// still matters to the last bit.
 #pragma once
 #include <cmath>
 
@@ -45,7 +46,8 @@ public:
         return *this;
     }
     trace::Vec3 value() const {
-        return {static_cast<float>(r_.value()), static_cast<float>(g_.value()), static_cast<float>(b_.value())};
+        return {static_cast<float>(r_.value()), static_cast<float>(g_.value()),
+                static_cast<float>(b_.value())};
     }
 
 private:

@@ -41,7 +41,8 @@ Image contact_sheet(std::span<const scenes::Scene> all, const ContactSheetConfig
     const std::uint32_t columns = std::min(config.columns, count), rows = (count + columns - 1) / columns;
     const std::uint32_t width = margin + columns * (config.edge + margin);
     const std::uint32_t height = margin + rows * (config.edge + label + margin);
-    OIIO::ImageBuf sheet(OIIO::ImageSpec(static_cast<int>(width), static_cast<int>(height), 3, OIIO::TypeDesc::FLOAT));
+    OIIO::ImageBuf sheet(
+        OIIO::ImageSpec(static_cast<int>(width), static_cast<int>(height), 3, OIIO::TypeDesc::FLOAT));
     const float white[] = {background, background, background}, black[] = {0, 0, 0};
     OIIO::ImageBufAlgo::fill(sheet, white);
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -57,8 +58,8 @@ Image contact_sheet(std::span<const scenes::Scene> all, const ContactSheetConfig
             }
         // Without the font it changes nothing and says so in the buffer's error, which nobody asks for.
         OIIO::ImageBufAlgo::render_text(sheet, static_cast<int>(left + config.edge / 2),
-                                        static_cast<int>(top + config.edge + label - 4), all[i].name, 13, font, black,
-                                        OIIO::ImageBufAlgo::TextAlignX::Center);
+                                        static_cast<int>(top + config.edge + label - 4), all[i].name, 13,
+                                        font, black, OIIO::ImageBufAlgo::TextAlignX::Center);
         if (sheet.has_error()) sheet.geterror();
     }
     Image result{width, height, std::vector<trace::Vec3>(std::size_t{width} * height)};

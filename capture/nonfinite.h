@@ -1,5 +1,6 @@
-// capture/nonfinite.h -- numbers that are none: a NaN or an infinity is stopped where it arises, counted by the stage that made
-// it, and told; it never reaches a sum, and so no image. Zero takes its place: darker by one contribution, never brighter.
+// capture/nonfinite.h -- numbers that are none: a NaN or an infinity is stopped where it arises, counted by
+// the stage that made it, and told; it never reaches a sum, and so no image. Zero takes its place: darker by
+// one contribution, never brighter.
 #pragma once
 #include <fmt/format.h>
 
@@ -26,7 +27,7 @@ enum class Stage : std::uint8_t {
 };
 inline constexpr std::size_t stage_count = 7;
 inline constexpr std::array<std::string_view, stage_count> stage_names{"photon",   "eye",  "shadow", "gather",
-                                                                      "estimate", "path", "pixel"};
+                                                                       "estimate", "path", "pixel"};
 
 /// One a thread or block of work; added up in the end.
 class Nonfinite {
@@ -61,8 +62,10 @@ public:
         if (total() == 0) return "";
         std::string parts;
         for (std::size_t s = 0; s < stage_count; ++s)
-            if (counts_[s] > 0) parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", stage_names[s], counts_[s]);
-        return fmt::format("{} value{} not finite and became 0: {}", total(), total() == 1 ? " was" : "s were", parts);
+            if (counts_[s] > 0)
+                parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", stage_names[s], counts_[s]);
+        return fmt::format("{} value{} not finite and became 0: {}", total(),
+                           total() == 1 ? " was" : "s were", parts);
     }
     friend bool operator==(const Nonfinite&, const Nonfinite&) = default;
 

@@ -133,6 +133,11 @@ std::optional<Hit> RayCaster::closest(Vec3 origin, Vec3 direction) const {
         Vec3 aside = Frame(direction).tangent * 0.5f;
         if (distance > 0) aside += to_centre * (1 / distance);
         if (!embree_->closest(origin, direction + aside * 0x1p-15f, largest_offset_ / 8, query)) return std::nullopt;
+        // Only next to a corner: a ray that leaves an open scene along its own surface must not be turned back into it.
+        const Corners& met = corners_[query.hit.primID];
+        const Vec3 point = origin + direction * query.ray.tfar;
+        const float nearest = std::min({length(met.a - point), length(met.b - point), length(met.c - point)});
+        if (!(nearest < query.ray.tfar * 0x1p-10f)) return std::nullopt;
     }
 
     Hit hit;

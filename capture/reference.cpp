@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -117,6 +118,16 @@ double Reference::mean_variance() const {
     for (const Moments& pixel : pixels)
         for (std::size_t c = 0; c < 3; ++c) sum += pixel.variance(c, samples);
     return pixels.empty() ? 0 : sum / (3 * static_cast<double>(pixels.size()));
+}
+
+double Reference::median_variance() const {
+    std::vector<double> all;
+    for (const Moments& pixel : pixels)
+        all.push_back((pixel.variance(0, samples) + pixel.variance(1, samples) + pixel.variance(2, samples)) / 3);
+    if (all.empty()) return 0;
+    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+    std::nth_element(all.begin(), middle, all.end());
+    return *middle;
 }
 
 double Reference::mean_radiance() const {

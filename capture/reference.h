@@ -37,6 +37,7 @@ struct Reference {
     Image mean() const;
     Image variance() const;           ///< Of the mean, by pixel and channel [(W / (m^2 sr))^2]; 0 for fewer than two samples.
     double mean_variance() const;     ///< Its mean over pixels and channels: the squared error that the reference itself has.
+    double median_variance() const;   ///< Of the pixels' (mean over their channels): edges of lights do not weigh in.
     double mean_radiance() const;     ///< Over pixels and channels.
 };
 

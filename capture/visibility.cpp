@@ -12,7 +12,8 @@
 
 namespace regather::capture {
 
-std::vector<std::uint8_t> triangles_seen(const Scene& scene, const RayCaster& caster, const scenes::Camera& camera) {
+std::vector<std::uint8_t> triangles_seen(const Scene& scene, const RayCaster& caster,
+                                         const scenes::Camera& camera) {
     const Vec3 forward = trace::normalize(camera.target - camera.position);
     const Vec3 right = trace::normalize(cross(forward, camera.up)), up = cross(right, forward);
     const double half = std::tan(static_cast<double>(camera.vertical_fov_degrees) * std::numbers::pi / 360);

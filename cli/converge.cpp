@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -148,7 +148,7 @@ void run(const Options& options) {
         skipped = study::run(convergence, config, {ladder, known, left, told, measured});
     }
 
-    const double mean = reference.mean_radiance();
+    const double mean = convergence.mean_radiance();
     fmt::print("{}, {} x {} pixels, {} seeds; % of the mean radiance {:.4g} W / (m^2 sr)\n", scene.name, config.width,
                config.height, config.seeds, mean);
     fmt::print("reference: {} samples a pixel in {:.1f} s, own RMSE {:.3g} %; no error below it is told\n", reference.samples,

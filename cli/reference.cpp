@@ -111,8 +111,9 @@ std::string report(const capture::Reference& reference, const fs::path& folder) 
                                    reference.key.width, reference.key.height, reference.samples, reference.seconds);
     text += fmt::format("rays: {} and {} to lights\n", reference.counts.rays, reference.counts.shadow_rays);
     if (reference.samples > 1)
-        text += fmt::format("mean radiance {:.5g}, its own error (RMS over the pixels) {:.3g}{}\n", mean, noise,
-                            mean > 0 ? fmt::format(": {:.2f} %", 100 * noise / mean) : "");
+        text += fmt::format("mean radiance {:.5g}; its own error: RMS over the pixels {:.3g}{}, median {:.3g}\n", mean, noise,
+                            mean > 0 ? fmt::format(" ({:.2f} %)", 100 * noise / mean) : "",
+                            std::sqrt(reference.median_variance()));
     if (reference.counts.cut_off > 0)
         text += fmt::format("{} of {} paths were cut off after {} surfaces: darker than the truth\n", reference.counts.cut_off,
                             reference.counts.samples, capture::PathConfig{}.most_surfaces);

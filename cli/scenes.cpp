@@ -1,17 +1,23 @@
-// `regather scenes [NAME|FILE]`: what there is to light, as tables on stdout.
+// `regather scenes [NAME|FILE]`: what there is to light, as tables on stdout, or as a contact sheet of small renderings.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "capture/contact_sheet.h"
+#include "capture/visibility.h"
 #include "cli/commands.h"
+#include "cli/progress.h"
+#include "scenes/camera_path.h"
 #include "scenes/catalogue.h"
 #include "scenes/loader.h"
 #include "scenes/needs.h"
+#include "trace/error.h"
 
 namespace regather::cli {
 
@@ -48,11 +54,13 @@ std::string bounds_of(const Scene& scene) {
     return fmt::format("{} to {}", in_words(bounds.min), in_words(bounds.max));
 }
 
-void print_table(const std::vector<std::array<std::string, 7>>& rows) {
-    std::array<std::size_t, 7> widths{};
-    for (const auto& row : rows)
+using Row = std::array<std::string, 8>;
+
+void print_table(const std::vector<Row>& rows) {
+    std::array<std::size_t, std::tuple_size_v<Row>> widths{};
+    for (const Row& row : rows)
         for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
-    for (const auto& row : rows) {
+    for (const Row& row : rows) {
         std::string line;
         for (std::size_t c = 0; c < row.size(); ++c) {
             line += row[c];
@@ -62,16 +70,49 @@ void print_table(const std::vector<std::array<std::string, 7>>& rows) {
     }
 }
 
+std::string in_percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
+
+std::string frames_of(const Scene& scene) {
+    return scene.camera_path.empty() ? "-" : fmt::format("{}", scene.frames);
+}
+
+double seen_by_camera(const Scene& scene) {
+    const capture::RayCaster caster(scene);
+    return capture::share_seen(scene, caster, {&scene.camera, 1});
+}
+
+double seen_over_path(const Scene& scene) {
+    std::vector<scenes::Camera> cameras;
+    for (std::uint32_t frame = 0; frame < scene.frames; ++frame) cameras.push_back(scenes::camera_at(scene, frame));
+    const capture::RayCaster caster(scene);
+    return capture::share_seen(scene, caster, cameras);
+}
+
 void print_all() {
-    std::vector<std::array<std::string, 7>> rows{
-        {"name", "triangles", "materials", "lights", "power [W] (R G B)", "bounds [m]", "camera [m]"}};
+    std::vector<Row> rows{{"name", "triangles", "materials", "lights", "power [W] (R G B)", "bounds [m]", "seen", "frames"}};
     for (const scenes::EmbeddedScene& entry : scenes::catalogue()) {
         const Scene scene = scenes::load_scene(entry.name);
         rows.push_back({scene.name, fmt::format("{}", scene.triangles.size()), materials_of(scene),
-                        fmt::format("{}", scene.lights.size()), in_words(total_power(scene)),
-                        bounds_of(scene), in_words(scene.camera.position)});
+                        fmt::format("{}", scene.lights.size()), in_words(total_power(scene)), bounds_of(scene),
+                        in_percent(seen_by_camera(scene)), frames_of(scene)});
     }
     print_table(rows);
+}
+
+void write_thumbnails(const std::filesystem::path& file, std::vector<std::string> names, bool force) {
+    if (file.extension() != ".png")
+        throw trace::UsageError(fmt::format("--thumbnails: found {}, expected a .png file", file.string()));
+    if (std::filesystem::exists(file) && !force)
+        throw trace::UsageError(fmt::format("{}: found a file that is there, expected --force to overwrite it", file.string()));
+    if (names.empty())
+        for (const scenes::EmbeddedScene& entry : scenes::catalogue()) names.emplace_back(entry.name);
+    std::vector<Scene> all;
+    for (const std::string& name : names) all.push_back(scenes::load_scene(name));
+    Progress progress;
+    const capture::Image sheet = capture::contact_sheet(all, {}, [&](std::string_view, std::size_t done) {
+        progress.update("thumbnails", "scenes", done, all.size());
+    });
+    capture::write_png(file, sheet, 1, capture::Tone::linear);
 }
 
 void print_details(const std::string& name_or_path) {
@@ -82,6 +123,8 @@ void print_details(const std::string& name_or_path) {
     line("name", scene.name);
     for (const scenes::EmbeddedScene& entry : scenes::catalogue())
         if (entry.name == name_or_path) line("what", std::string(entry.summary));
+    if (!scene.origin.empty()) line("origin", scene.origin);
+    if (!scene.licence.empty()) line("licence", scene.licence);
     line("triangles", fmt::format("{}", scene.triangles.size()));
     line("vertices", fmt::format("{}", scene.vertices.size()));
     line("faces without area", fmt::format("{} dropped", scene.degenerate_faces_dropped));
@@ -93,6 +136,12 @@ void print_details(const std::string& name_or_path) {
     line("camera [m]",
          fmt::format("{} towards {}, up {}, {:.4g} degrees high", in_words(camera.position),
                      in_words(camera.target), in_words(camera.up), camera.vertical_fov_degrees));
+    line("seen by the camera", in_percent(seen_by_camera(scene)) + " of the surface");
+    if (!scene.camera_path.empty())
+        line("camera path", fmt::format("{} frames, {} key frames, {} of the surface seen", scene.frames,
+                                        scene.camera_path.size(), in_percent(seen_over_path(scene))));
+    if (const auto& [x, y, z] = scene.recentred_by; x != 0 || y != 0 || z != 0)
+        line("recentred", fmt::format("all coordinates of the file less {:.15g} {:.15g} {:.15g} m", x, y, z));
     fmt::print("\nneeds of a capture\n");
     const scenes::Needs needs = scenes::needs_of(scene);
     for (const scenes::Need* need : needs.list())
@@ -102,6 +151,11 @@ void print_details(const std::string& name_or_path) {
     fmt::print("\nlights\n");
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const scenes::AreaLight& light = scene.lights[i];
+        if (light.is_mesh()) {
+            line(fmt::format("  {}", i), fmt::format("{:.4g} m^2, {} triangles, radiance {} W/(m^2 sr)", light.area(),
+                                                     light.triangle_count, in_words(light.radiance)));
+            continue;
+        }
         line(fmt::format("  {}", i),
              fmt::format("{:.4g} m^2 at {} m, facing {}, radiance {} W/(m^2 sr)", light.area(),
                          in_words(light.corner), in_words(light.normal()), in_words(light.radiance)));
@@ -112,15 +166,31 @@ void print_details(const std::string& name_or_path) {
 
 void add_scenes(CLI::App& app) {
     CLI::App* command =
-        app.add_subcommand("scenes", "Lists the embedded scenes, or shows one scene in detail");
+        app.add_subcommand("scenes", "Lists the embedded scenes, shows one scene in detail, or draws a contact sheet");
     command->footer(
         "Examples:\n"
         "  regather scenes                 the embedded scenes\n"
         "  regather scenes room            one of them: size, materials, lights, what a capture needs\n"
-        "  regather scenes my_scene.json   a scene file (docs/scene_format.md): checked, then shown");
-    auto scene = std::make_shared<std::string>();
-    command->add_option("SCENE", *scene, "an embedded scene's name, or a JSON file");
-    command->callback([scene] { scene->empty() ? print_all() : print_details(*scene); });
+        "  regather scenes my_scene.json   a scene file (docs/scene_format.md): checked, then shown\n"
+        "  regather scenes --thumbnails sheet.png room house my_scene.json");
+    struct Options {
+        std::vector<std::string> names;
+        std::string thumbnails;
+        bool force = false;
+    };
+    auto options = std::make_shared<Options>();
+    command->add_option("SCENE", options->names, "an embedded scene's name, or a JSON file; several with --thumbnails");
+    command->add_option("--thumbnails", options->thumbnails,
+                        "writes small renderings of the scenes (default: the embedded ones) with their names to this PNG");
+    command->add_flag("--force", options->force, "overwrites the PNG");
+    command->callback([options] {
+        if (!options->thumbnails.empty()) return write_thumbnails(options->thumbnails, options->names, options->force);
+        if (options->names.empty()) return print_all();
+        if (options->names.size() > 1)
+            throw trace::UsageError(fmt::format("SCENE: found '{}' after '{}', expected nothing more without --thumbnails",
+                                                options->names[1], options->names[0]));
+        print_details(options->names[0]);
+    });
 }
 
 }  // namespace regather::cli

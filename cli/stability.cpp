@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -55,18 +56,21 @@ void run(const Options& options) {
         Progress progress;
         for (const auto& [group, one] : cases) {
             progress.update(fmt::format("{}: {}", group->name, one.name), "cases", rows.size(), cases.size());
-            rows.push_back(study::run_case(*group, one, options.quick ? study::Effort::quick : study::Effort::full));
+            rows.push_back(
+                study::run_case(*group, one, options.quick ? study::Effort::quick : study::Effort::full));
         }
     }
     fmt::print("{}", results::stability_table(rows));
     if (!options.folder.empty()) {
         results::write_csv<results::StabilityRow>(csv, rows);
-        results::write_provenance(csv, {command_line(), version(), git_revision(), {}}, {{"quick", options.quick}});
+        results::write_provenance(csv, {command_line(), version(), git_revision(), {}},
+                                  nlohmann::json{{"quick", options.quick}});
         results::Rows all;
         all.stability = rows;
         fmt::print("{}\n", csv.string());
         const std::string kind = "stability";
-        for (const results::Drawn& drawn : results::write_charts(options.folder, all, std::span(&kind, 1), {}))
+        for (const results::Drawn& drawn :
+             results::write_charts(options.folder, all, std::span(&kind, 1), {}))
             for (const auto& file : drawn.files) fmt::print("{}\n", file.string());
     }
     std::size_t failed = 0;
@@ -78,16 +82,19 @@ void run(const Options& options) {
 
 void add_stability(CLI::App& app) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("stability", "measure errors in stiff and extreme cases against what is allowed");
+    CLI::App* command =
+        app.add_subcommand("stability", "measure errors in stiff and extreme cases against what is allowed");
     std::string names;
-    for (const study::CaseGroup& group : study::case_groups()) names += fmt::format("{}{}", names.empty() ? "" : ", ", group.name);
+    for (const study::CaseGroup& group : study::case_groups())
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", group.name);
     command->add_option("--only", options->only, fmt::format("groups of cases: {}", names))->delimiter(',');
     command->add_option("-o,--output", options->folder, "write stability.csv and the chart here");
     command->add_flag("--quick", options->quick, "fewer rays, photons and samples");
     command->add_flag("--list", options->list, "name the cases and stop");
     command->add_flag("--force", options->force, "overwrite the CSV");
-    command->footer("Exit code 1 when a case fails. Meaning and bounds of the cases: docs/stability.md\n"
-                    "Example:\n  regather stability --only leaks,lobes -o out/stability");
+    command->footer(
+        "Exit code 1 when a case fails. Meaning and bounds of the cases: docs/stability.md\n"
+        "Example:\n  regather stability --only leaks,lobes -o out/stability");
     command->callback([options] { run(*options); });
 }
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <set>
 #include <vector>
 
 namespace regather::results {
@@ -20,6 +22,29 @@ std::string all_values(std::span<const Curve> curves, Text text) {
     return joined(seen, " and ");
 }
 
+/// "frames 0:30:5, median and range" as `capture --frames` takes them; uneven ones one by one.
+std::string frames_text(std::span<const Curve> curves) {
+    std::set<std::uint64_t> seen;
+    bool merged = false;
+    for (const Curve& curve : curves)
+        for (const auto& frames : curve.frames) {
+            merged |= frames.size() > 1;
+            for (const Row* row : frames)
+                if (row->frame) seen.insert(*row->frame);
+        }
+    if (!merged || seen.size() < 2) return "";
+    const std::vector<std::uint64_t> all(seen.begin(), seen.end());
+    const std::uint64_t step = all[1] - all[0];
+    bool even = true;
+    for (std::size_t i = 1; i < all.size(); ++i) even &= all[i] - all[i - 1] == step;
+    std::string list;
+    if (even)
+        list = fmt::format("{}:{}:{}", all.front(), all.back() + step, step);
+    else
+        for (const std::uint64_t frame : all) list += fmt::format("{}{}", list.empty() ? "" : ", ", frame);
+    return fmt::format("frames {}, median and range", list);
+}
+
 }  // namespace
 
 std::string caption(std::span<const Curve> curves, const std::string& cache) {
@@ -27,7 +52,8 @@ std::string caption(std::span<const Curve> curves, const std::string& cache) {
         return row.queries ? decimal_count(static_cast<double>(*row.queries)) : std::string();
     });
     if (!queries.empty()) queries += " queries";
-    std::vector<std::string> parts = {all_values(curves, [](const Row& row) { return row.scene; }), queries};
+    std::vector<std::string> parts = {all_values(curves, [](const Row& row) { return row.scene; }), frames_text(curves),
+                                      queries};
     if (!cache.empty()) {
         const std::string policy =
             all_values(curves, [](const Row& row) { return row.policy == "lru" ? "LRU" : row.policy; });

@@ -7,6 +7,7 @@
 #include "results/budget.h"
 #include "results/convergence.h"
 #include "results/depth.h"
+#include "results/frames.h"
 #include "results/gnuplot.h"
 #include "results/stability.h"
 #include "results/sweep.h"
@@ -30,11 +31,23 @@ constexpr ChartKind kinds_table[] = {
      misses_by_class},
     {"net-benefit", "Best ordering by on-chip budget",
      "at least 2 budgets, and buffer_traffic_bytes or reorder_bytes", RowKind::measurement, net_benefit},
+    {"traffic-by-frame", "Memory traffic along the camera path", "at least 2 frames", RowKind::measurement,
+     traffic_by_frame},
     {"traffic-by-depth", "Memory traffic by depth in the tree", "rows by region and tree depth",
      RowKind::detail, traffic_by_depth},
     {"timeline", "Misses over the run", "rows by slice of the run", RowKind::timeline, timeline},
     {"sampling-error", "Set sampling: error against run time", "rows of sampled runs", RowKind::sampling,
      sampling_error},
+    {"error-by-time", "Error against run time", "rows of settings with total_seconds and rmse", RowKind::convergence,
+     error_by_time},
+    {"error-by-render-time", "Error against render time", "rows of settings with render_seconds and rmse",
+     RowKind::convergence, error_by_render_time},
+    {"efficiency", "Efficiency: 1 / (variance × run time)", "rows of settings with efficiency", RowKind::convergence,
+     efficiency},
+    {"bias-by-photons", "Bias and variance by number of photons",
+     "direct visualisation at 2 or more numbers of photons", RowKind::convergence, bias_by_photons},
+    {"bias-by-k", "Bias and variance by photons of a gather",
+     "direct visualisation at 2 or more k with the photons held", RowKind::convergence, bias_by_k},
     {"stability", "Stiff and extreme cases: error and what is allowed", "rows of the stability study", RowKind::stability,
      stability},
 };

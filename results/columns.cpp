@@ -126,6 +126,7 @@ constexpr Column<C> convergence_columns[] = {
     {"photon_seconds", Seconds<C>{&C::photon_seconds}},
     {"tree_seconds", Seconds<C>{&C::tree_seconds}},
     {"total_seconds", Seconds<C>{&C::total_seconds}, needed},
+    {"pixels", &C::pixels},
     {"rmse", Real<C>{&C::rmse}, needed},
     {"below_reference", &C::below_reference},
     {"rel_mse", Real<C>{&C::rel_mse}},

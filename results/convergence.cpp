@@ -260,7 +260,7 @@ Chart bias_chart(const ChartKind& kind, const Rows& rows, Varied varied, std::st
             plate.lines.push_back(std::move(line));
         }
         if (heights.empty()) continue;
-        if (lost > 0) plate.remark = fmt::format("{} not told apart from 0", lost);
+        if (lost > 0) plate.remark = fmt::format("{} points not told apart from 0", lost);
         plate.vertical = log_scale(heights, plain_number);
         for (Line& line : expected) {  // only where the panel is
             std::erase_if(line.points, [&](const Point& p) {
@@ -288,7 +288,7 @@ std::string setting_text(const ConvergenceRow& row) {
     std::string out = row.mode == "direct" ? "direct" : fmt::format("N {}", row.gather_rays.value_or(0));
     out += fmt::format(", n {}, k {}", decimal_count(static_cast<double>(row.photons.value_or(0))), row.k.value_or(0));
     if (row.radius) out += fmt::format(", r {:.3g}", *row.radius);
-    if (row.samples.value_or(1) > 1) out += fmt::format(", {} samples", *row.samples);
+    if (row.samples.value_or(1) > 1) out += fmt::format(", s {}", *row.samples);
     return out;
 }
 
@@ -353,7 +353,7 @@ std::optional<double> seconds_to(const Ladder& ladder, double error) {
 std::string convergence_table(std::span<const ConvergenceRow> rows) {
     const std::vector<Ladder> all = ladders(rows);
     if (all.empty()) return "";
-    std::string out = fmt::format("{:<16} {:<27} {:>8} {:>8} {:>8} {:>7} {:>7} {:>6} {:>6}\n", "ladder", "setting",
+    std::string out = fmt::format("{:<15} {:<28} {:>8} {:>8} {:>7} {:>6} {:>6} {:>6} {:>6}\n", "ladder", "setting",
                                   "render s", "total s", "RMSE %", "bias %", "dev. %", "MAPE %", "FLIP");
     for (const Ladder& ladder : all)
         for (const ConvergenceRow* row : ladder.rows) {
@@ -362,7 +362,7 @@ std::string convergence_table(std::span<const ConvergenceRow> rows) {
             };
             const bool no_bias = row->bias_squared && *row->bias_squared <= 2 * row->bias_squared_stderr.value_or(0);
             std::string line = fmt::format(
-                "{:<16} {:<27} {:>8.3f} {:>8.3f} {:>8} {:>7} {:>7} {:>6} {:>6}", ladder.label, setting_text(*row),
+                "{:<15} {:<28} {:>8.3f} {:>8.3f} {:>7} {:>6} {:>6} {:>6} {:>6}", ladder.label, setting_text(*row),
                 row->render_seconds.value_or(0), *row->total_seconds,
                 (row->below_reference.value_or(false) ? "<=" : "") + percent(percent_of_mean(*row, *row->rmse)),
                 no_bias ? "~0" : root(row->bias_squared), root(row->variance),
@@ -377,7 +377,7 @@ std::string time_table(std::span<const ConvergenceRow> rows) {
     std::vector<double> levels;
     for (const double share : {0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005})
         if (std::any_of(all.begin(), all.end(), [&](const Ladder& ladder) {
-                return seconds_to(ladder, share * ladder.rows.front()->mean_radiance.value_or(0)).has_value();
+                return seconds_to(ladder, share * ladder.rows.front()->mean_radiance.value_or(0)).value_or(-1) > 0;
             }))
             levels.push_back(share);
     if (levels.empty()) return "";

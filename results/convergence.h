@@ -29,7 +29,7 @@ std::optional<double> seconds_to(const Ladder& ladder, double error);
 
 /// For a terminal, at most 100 characters wide: a line a setting; empty without rows.
 std::string convergence_table(std::span<const ConvergenceRow> rows);
-/// Time to 50, 20, ... 1 % of the mean radiance, those that some ladder reaches.
+/// Time to 50, 20, ... 1 % of the mean radiance, those that some ladder crosses.
 std::string time_table(std::span<const ConvergenceRow> rows);
 
 Chart error_by_time(const ChartKind& kind, const Rows& rows, const ChartOptions& options);

@@ -26,6 +26,7 @@ struct ConvergenceRow : LadderRow {
     Number render_seconds;                       ///< Queries and gathers.
     Number photon_seconds, tree_seconds;
     Number total_seconds;                        ///< The three together.
+    Count pixels;                                ///< That count for RMSE, bias and variance: no lights and their edges.
     Number rmse;                                 ///< [W / (m^2 sr)] The reference's own error is taken off.
     std::optional<bool> below_reference;         ///< `rmse` is not told apart from the reference's error, which stands there.
     Number rel_mse, rel_mse_trimmed, mape, ldr_flip, hdr_flip;  ///< As measured: with the reference's error in them.

@@ -21,16 +21,26 @@ constexpr const char* floor_style = "lc rgb '#606060' lw 0.8 dt solid";
 constexpr const char* level_dashes[] = {"(10,5)", "(4,4)", "(2,4)", "(12,4,2,4)"};
 
 struct Value {
-    double x, y;
+    double x, y, low, high;  // of several frames: median, least, most
     friend bool operator==(const Value&, const Value&) = default;
 };
+
+std::vector<const Row*> frames_at(const Curve& curve, std::size_t r) {
+    return r < curve.frames.size() ? curve.frames[r] : std::vector<const Row*>{curve.rows[r]};
+}
 
 /// A curve as one panel shows it: places above 0 only, as a log axis has no 0.
 std::vector<Value> values(const Curve& curve, const Panel& panel, Axis axis) {
     std::vector<Value> out;
-    for (const Row* row : curve.rows) {
-        const auto y = panel.measure(*row);
-        if (y && *y > 0) out.push_back({curve.flat ? 0 : axis_value(*row, axis), *y});
+    for (std::size_t r = 0; r < curve.rows.size(); ++r) {
+        std::vector<double> found;
+        for (const Row* row : frames_at(curve, r))
+            if (const auto y = panel.measure(*row); y && *y > 0) found.push_back(*y);
+        if (found.empty()) continue;
+        std::sort(found.begin(), found.end());
+        const std::size_t half = found.size() / 2;
+        const double median = found.size() % 2 == 1 ? found[half] : (found[half - 1] + found[half]) / 2;
+        out.push_back({curve.flat ? 0 : axis_value(*curve.rows[r], axis), median, found.front(), found.back()});
     }
     return out;
 }
@@ -178,8 +188,8 @@ private:
         double low = panel.floor.value_or(1e300), high = panel.floor.value_or(0);
         for (const std::size_t c : order_)
             for (const Value value : values(curves_[c], panel, axis_.axis)) {
-                low = std::min(low, value.y);
-                high = std::max(high, value.y);
+                low = std::min(low, value.low);
+                high = std::max(high, value.high);
             }
         if (high == 0) low = high = 1;
         low *= 0.75;
@@ -236,6 +246,7 @@ private:
                     say("{:.10g} {:.10g}\n", value.x, value.y);
             }
             say("EOD\n");
+            bars(curve, shown, fmt::format("$bars_{}_{}", p, i), plots);
             plots += fmt::format("{}$curve_{}_{} using 1:2 with linespoints {} title {}",
                                  plots.empty() ? "" : ", \\\n    ", p, i, line_style(curve, under),
                                  gnuplot_string(curve.label));
@@ -244,6 +255,21 @@ private:
             plots += fmt::format("{}{:.10g} with lines {} title {}", plots.empty() ? "" : ", \\\n    ",
                                  *panel.floor, floor_style, gnuplot_string(panel.floor_label));
         say("plot {}\n", plots.empty() ? "-1" : plots);  // an empty frame: -1 is below any log axis
+    }
+
+    void bars(const Curve& curve, std::span<const Value> shown, const std::string& name, std::string& plots) {
+        if (std::none_of(shown.begin(), shown.end(), [](const Value& v) { return v.low < v.high; })) return;
+        say("{} << EOD\n", name);
+        for (const Value& value : shown) {
+            if (curve.flat)  // at its outermost markers
+                for (const double x : {frame_.low_x, frame_.high_x})
+                    say("{:.10g} {:.10g} {:.10g} {:.10g}\n", x, value.y, value.low, value.high);
+            else
+                say("{:.10g} {:.10g} {:.10g} {:.10g}\n", value.x, value.y, value.low, value.high);
+        }
+        say("EOD\n");
+        plots += fmt::format("{}{} using 1:2:3:4 with yerrorbars lc rgb '{}' lw 1.2 dt solid pt 0 notitle",
+                             plots.empty() ? "" : ", \\\n    ", name, curve.colour);
     }
 
     /// A plot of its own over the whole height, as gnuplot drops entries that do not fit beside their plot.

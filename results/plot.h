@@ -12,7 +12,8 @@
 
 namespace regather::results {
 
-/// One measure of the curves, drawn against the common axis.
+/// One measure of the curves, drawn against the common axis: of rows of several frames the median, with a bar from the least
+/// to the most.
 struct Panel {
     std::string label;  ///< Of the vertical axis, with its unit.
     std::function<std::optional<double>(const Row&)> measure;

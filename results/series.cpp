@@ -33,9 +33,9 @@ constexpr std::string_view spare_colours[] = {"#332288", "#44aa99", "#aa4499",
 constexpr std::size_t trait_count = 7;
 using Traits = std::array<std::string, trait_count>;
 
-Traits traits_of(const Row& row) {
+Traits traits_of(const Row& row, bool merge_frames) {
     return {row.scene,
-            row.frame ? fmt::format("frame {}", *row.frame) : "",
+            row.frame && !merge_frames ? fmt::format("frame {}", *row.frame) : "",
             row.structure,
             row.layout,
             row.policy,
@@ -48,6 +48,7 @@ struct Group {
     bool tiled, binned;
     Traits traits;
     std::vector<const Row*> rows;
+    std::vector<std::vector<const Row*>> frames = {};
 };
 
 bool fits(const Row& row, Axis axis, const Geometry& cache) {
@@ -59,16 +60,16 @@ bool fits(const Row& row, Axis axis, const Geometry& cache) {
     return *geometry == wanted;
 }
 
-std::vector<Group> groups_of(std::span<const Row> rows, Axis axis, const Geometry& cache) {
+std::vector<Group> groups_of(std::span<const Row> rows, Axis axis, const Geometry& cache, bool merge_frames) {
     std::vector<Group> groups;
     for (const Row& row : rows) {
         if (!fits(row, axis, cache)) continue;
-        const Traits traits = traits_of(row);
+        const Traits traits = traits_of(row, merge_frames);
         const bool tiled = row.tile.has_value(), binned = row.bins.has_value();
         auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) {
             return g.ordering == row.ordering && g.tiled == tiled && g.binned == binned && g.traits == traits;
         });
-        if (group == groups.end()) group = groups.insert(group, {row.ordering, tiled, binned, traits, {}});
+        if (group == groups.end()) group = groups.insert(group, {row.ordering, tiled, binned, traits, {}, {}});
         group->rows.push_back(&row);
     }
     return groups;
@@ -88,14 +89,16 @@ void hold(std::vector<const Row*>& rows, Count Row::*field, std::uint64_t wanted
     std::erase_if(rows, [&](const Row* row) { return *(row->*field) != best; });
 }
 
-/// Sorted along the axis, one row a place.
+/// Sorted along the axis, one row a place; the rows of all frames beside it.
 void settle(Group& group, Axis axis, bool flat) {
     auto& rows = group.rows;
     const auto place = [&](const Row* row) { return flat ? 0 : axis_value(*row, axis); };
-    std::stable_sort(rows.begin(), rows.end(), [&](auto a, auto b) { return place(a) < place(b); });
+    std::stable_sort(rows.begin(), rows.end(), [&](auto a, auto b) {
+        return place(a) != place(b) ? place(a) < place(b) : a->frame < b->frame;
+    });
     for (std::size_t i = 1; i < rows.size();) {
         const Row &a = *rows[i - 1], &b = *rows[i];
-        if (place(&a) != place(&b)) {
+        if (place(&a) != place(&b) || a.frame != b.frame) {
             ++i;
             continue;
         }
@@ -108,6 +111,15 @@ void settle(Group& group, Axis axis, bool flat) {
                 b.parameters.empty() ? b.ordering : b.parameters, *a.traffic_bytes, *b.traffic_bytes));
         rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(i));
     }
+    std::vector<const Row*> places;
+    for (const Row* row : rows) {
+        if (places.empty() || place(places.back()) != place(row)) {
+            places.push_back(row);
+            group.frames.emplace_back();
+        }
+        group.frames.back().push_back(row);
+    }
+    rows = places;
 }
 
 Curve look_of(const Group& group, const std::vector<Curve>& before, std::span<const std::string> strangers,
@@ -169,7 +181,7 @@ double axis_value(const Row& row, Axis axis) {
 }
 
 std::vector<Curve> curves(std::span<const Row> rows, Axis axis, const Slice& slice) {
-    std::vector<Group> groups = groups_of(rows, axis, slice.cache);
+    std::vector<Group> groups = groups_of(rows, axis, slice.cache, slice.merge_frames);
     std::array<bool, trait_count> differs{};
     std::vector<std::string> strangers;
     for (const Group& group : groups) {
@@ -188,6 +200,7 @@ std::vector<Curve> curves(std::span<const Row> rows, Axis axis, const Slice& sli
         Curve curve = look_of(group, out, strangers, axis == Axis::tile && !group.tiled);
         settle(group, axis, curve.flat);
         curve.rows = group.rows;
+        curve.frames = group.frames;
 
         const Row& row = *curve.rows.front();
         const auto can_tile = std::any_of(std::begin(known), std::end(known), [&](const Style& s) {

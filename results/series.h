@@ -20,6 +20,7 @@ enum class Axis { tile, bins, cache };
 struct Slice {
     Geometry cache;  ///< Along the cache axis, only its line size and ways count.
     std::uint64_t tile = 16, bins = 16;
+    bool merge_frames = false;  ///< Rows that differ in their frame alone share a place: Curve::frames.
 };
 
 /// The look of an ordering is the same in every chart. Colours: Okabe & Ito's colour-blind-safe palette and
@@ -38,6 +39,7 @@ struct Curve {
     int variant = 0;               ///< Counts up among curves of one ordering; picks the dashes.
     bool flat = false;             ///< Its rows have no place on the axis (naive has no tiles): a level line.
     std::vector<const Row*> rows;  ///< Ascending along the axis; one row when flat.
+    std::vector<std::vector<const Row*>> frames;  ///< For each of `rows`: those of all frames there, by frame.
 };
 
 /// "hilbert:tile=16,bits=10" -> "bits=10": what the columns tile and bins do not imply already.

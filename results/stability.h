@@ -1,5 +1,5 @@
-// results/stability.h -- the stability study as a table for a terminal and as a chart: for each case the measured error beside
-// what is allowed, and the seconds it took.
+// results/stability.h -- the stability study as a table for a terminal and as a chart: for each case the
+// measured error beside what is allowed, and the seconds it took.
 #pragma once
 #include <span>
 #include <string>

@@ -27,8 +27,9 @@ const HorizontalAxis cache_axis{"cache size [KiB]", Axis::cache, kib_number};
 std::optional<double> compulsory(std::span<const Curve> curves) {
     std::set<std::uint64_t> seen;
     for (const Curve& curve : curves)
-        for (const Row* row : curve.rows)
-            if (row->compulsory_bytes) seen.insert(*row->compulsory_bytes);
+        for (const auto& frames : curve.frames)
+            for (const Row* row : frames)
+                if (row->compulsory_bytes) seen.insert(*row->compulsory_bytes);
     if (seen.size() != 1 || *seen.begin() == 0) return {};
     return static_cast<double>(*seen.begin());
 }
@@ -96,7 +97,7 @@ Sliced slice(const ChartKind& kind, std::span<const Row> rows, Axis axis, const 
         return out;
     }
     out.cache = options.cache.value_or(*common);
-    out.curves = curves(rows, axis, {out.cache, options.tile, options.bins});
+    out.curves = curves(rows, axis, {out.cache, options.tile, options.bins, true});
     std::set<double> places;
     for (const Curve& curve : out.curves)
         for (const Row* row : curve.rows)

@@ -30,8 +30,9 @@ Vec3 hermite(const std::vector<KeyFrame>& keys, std::size_t i, double t, Vec3 Ke
     Vec3 p;
     for (int axis = 0; axis < 3; ++axis) {
         const auto k = static_cast<std::size_t>(axis);
-        p[axis] = static_cast<float>((2 * t3 - 3 * t2 + 1) * (keys[i].*point)[axis] + (t3 - 2 * t2 + t) * frames * m0[k] +
-                                     (3 * t2 - 2 * t3) * (keys[i + 1].*point)[axis] + (t3 - t2) * frames * m1[k]);
+        p[axis] = static_cast<float>(
+            (2 * t3 - 3 * t2 + 1) * (keys[i].*point)[axis] + (t3 - 2 * t2 + t) * frames * m0[k] +
+            (3 * t2 - 2 * t3) * (keys[i + 1].*point)[axis] + (t3 - t2) * frames * m1[k]);
     }
     return p;
 }
@@ -51,9 +52,12 @@ Vec3 turned(Vec3 a, Vec3 b, double t) {
 
 Camera camera_at(const Scene& scene, std::uint32_t frame) {
     const std::vector<KeyFrame>& keys = scene.camera_path;
-    if (keys.size() < 2) throw trace::UsageError(fmt::format("frame: found {}, and the scene {} has no camera path", frame, scene.name));
+    if (keys.size() < 2)
+        throw trace::UsageError(
+            fmt::format("frame: found {}, and the scene {} has no camera path", frame, scene.name));
     if (frame >= scene.frames)
-        throw trace::UsageError(fmt::format("frame: found {}, expected 0 to {} in the scene {}", frame, scene.frames - 1, scene.name));
+        throw trace::UsageError(fmt::format("frame: found {}, expected 0 to {} in the scene {}", frame,
+                                            scene.frames - 1, scene.name));
     std::size_t i = 0;
     while (i + 2 < keys.size() && keys[i + 1].frame <= frame) ++i;
     const double t = static_cast<double>(frame - keys[i].frame) / (keys[i + 1].frame - keys[i].frame);

@@ -23,7 +23,8 @@ Vec3 Coordinates::vector(const Node& object, const Kind& kind, std::string_view 
 }
 
 float Coordinates::positive(const Node& object, const Kind& kind, std::string_view key) {
-    return static_cast<float>(object[key].number(0, most_metres, kind.key(key).expected, Node::Ends::open_low));
+    return static_cast<float>(
+        object[key].number(0, most_metres, kind.key(key).expected, Node::Ends::open_low));
 }
 
 float Coordinates::not_negative(const Node& object, const Kind& kind, std::string_view key) {

@@ -1,5 +1,6 @@
-// scenes/coordinates.h -- points and directions of a scene file [m]. Points are read as doubles, and an origin near the scene is
-// taken off before they become floats: a scene far from its own origin keeps its shape.
+// scenes/coordinates.h -- points and directions of a scene file [m]. Points are read as doubles, and an
+// origin near the scene is taken off before they become floats: a scene far from its own origin keeps its
+// shape.
 #pragma once
 #include <array>
 #include <string_view>
@@ -12,7 +13,7 @@ namespace regather::scenes {
 
 using trace::Vec3;
 
-inline constexpr double most_metres = 1e6;      ///< Of lengths and of factors.
+inline constexpr double most_metres = 1e6;       ///< Of lengths and of factors.
 inline constexpr double most_coordinate = 1e12;  ///< Of points [m].
 
 class Coordinates {

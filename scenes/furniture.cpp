@@ -4,15 +4,17 @@
 #include <stdlib.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <set>
+#include <map>
 #include <string_view>
 #include <system_error>
 
 #include "scenes/java3d_materials.h"
 #include "scenes/mesh.h"
 #include "scenes/obj.h"
+#include "scenes/texture_colour.h"
 #include "scenes/weld.h"
 #include "trace/error.h"
 #include "trace/file.h"
@@ -89,19 +91,44 @@ std::string with_group_materials(std::string_view text) {
     return result;
 }
 
-std::set<std::string, std::less<>> defined_materials(std::string_view library) {
-    std::set<std::string, std::less<>> names;
-    each_line(library, [&](std::string_view line) {
-        if (!line.starts_with("newmtl ")) return;
-        line.remove_prefix(7);
-        while (!line.empty() && line.front() == ' ') line.remove_prefix(1);
-        while (!line.empty() && line.back() == ' ') line.remove_suffix(1);
-        names.emplace(line);
-    });
-    return names;
+// What a library says of a material beyond what scenes/mesh.h reads.
+struct Defined {
+    std::string texture;  // map_Kd, "" for none
+};
+using DefinedMaterials = std::map<std::string, Defined, std::less<>>;
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+    return text;
 }
 
-Material own(const Material& read, const std::set<std::string, std::less<>>& defined) {
+DefinedMaterials defined_materials(std::string_view library) {
+    DefinedMaterials materials;
+    Defined* last = nullptr;
+    each_line(library, [&](std::string_view line) {
+        line = trimmed(line);
+        if (line.starts_with("newmtl ")) last = &materials[std::string(trimmed(line.substr(7)))];
+        if (last && line.starts_with("map_Kd ")) last->texture = std::string(trimmed(line.substr(7)));
+    });
+    return materials;
+}
+
+bool is_readable_image(const std::string& name) {
+    std::string ending = fs::path(name).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending == ".jpg" || ending == ".png" || ending == ".tga";
+}
+
+// A texture is its mean colour here. Glass stays clear.
+void take_texture(Material& material, const Defined& defined, const Zip& zip, const std::string& folder) {
+    if (defined.texture.empty() || !is_readable_image(defined.texture)) return;
+    if (material.kind != MaterialKind::diffuse && material.kind != MaterialKind::glossy) return;
+    const std::string entry = folder + defined.texture;
+    material.diffuse = mean_colour(zip.read(entry, most_model_bytes), fmt::format("{}: {}", zip.archive(), entry));
+}
+
+Material own(const Material& read, const DefinedMaterials& defined) {
     if (read.name == pane_material)
         return {.name = "pane", .kind = MaterialKind::dielectric, .diffuse = {}, .index_of_refraction = 1.5f};
     if (read.name == mirror_material)
@@ -199,7 +226,7 @@ FurnitureModel read_furniture(const Zip& zip, const std::string& name) {
 
     const TemporaryFolder temporary;
     trace::write_file(temporary.path() / "model.obj", text);
-    std::set<std::string, std::less<>> defined;
+    DefinedMaterials defined;
     for (const std::string& library : contents.libraries) {
         const fs::path path(library);
         if (path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end())
@@ -221,7 +248,11 @@ FurnitureModel read_furniture(const Zip& zip, const std::string& name) {
     FurnitureModel model;
     for (std::uint32_t m = 0; m < mesh.materials.size(); ++m) {
         Surface surface = triangles_with(mesh.surface, mesh.triangle_material, m);
-        if (!surface.triangles.empty()) model.parts.push_back({own(mesh.materials[m], defined), std::move(surface)});
+        if (surface.triangles.empty()) continue;
+        Material material = own(mesh.materials[m], defined);
+        if (const auto found = defined.find(mesh.materials[m].name); found != defined.end())
+            take_texture(material, found->second, zip, folder);
+        model.parts.push_back({std::move(material), std::move(surface)});
     }
     return model;
 }

@@ -30,7 +30,8 @@ std::string bytes_of(const std::filesystem::path& file, const std::string& expec
         throw DataError(fmt::format("{}: found no file, expected {}", file.string(), expected));
     const std::uintmax_t size = std::filesystem::file_size(file, error);
     if (error || size > most_file_bytes)
-        throw DataError(fmt::format("{}: found {} bytes, expected at most {}", file.string(), size, most_file_bytes));
+        throw DataError(
+            fmt::format("{}: found {} bytes, expected at most {}", file.string(), size, most_file_bytes));
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -100,7 +101,8 @@ public:
             walk_scene();
         } catch (const json::exception& error) {
             const std::string_view text = error.what();
-            fail(fmt::format("damaged JSON ({})", text.substr(std::min(text.size(), text.find("] ") + 2))), "a glTF 2.0 file");
+            fail(fmt::format("damaged JSON ({})", text.substr(std::min(text.size(), text.find("] ") + 2))),
+                 "a glTF 2.0 file");
         }
         return std::move(mesh_);
     }
@@ -119,7 +121,8 @@ private:
     std::uint64_t whole(const json& object, const char* key, std::uint64_t otherwise) const {
         if (!object.contains(key)) return otherwise;
         const json& value = object.at(key);
-        if (!value.is_number_unsigned()) fail(fmt::format("{} = {}", key, in_quotes(value.dump())), "a whole number");
+        if (!value.is_number_unsigned())
+            fail(fmt::format("{} = {}", key, in_quotes(value.dump())), "a whole number");
         return value.get<std::uint64_t>();
     }
     double number(const json& object, const char* key, double otherwise) const {
@@ -129,16 +132,19 @@ private:
         return x;
     }
     template <std::size_t n>
-    std::array<double, n> numbers(const json& object, const char* key, std::array<double, n> otherwise) const {
+    std::array<double, n> numbers(const json& object, const char* key,
+                                  std::array<double, n> otherwise) const {
         if (!object.contains(key)) return otherwise;
         const json& list = object.at(key);
-        if (!list.is_array() || list.size() != n) fail(fmt::format("{} without {} numbers", key, n), "a list of them");
+        if (!list.is_array() || list.size() != n)
+            fail(fmt::format("{} without {} numbers", key, n), "a list of them");
         for (std::size_t i = 0; i < n; ++i) otherwise[i] = list[i].get<double>();
         return otherwise;
     }
     const json& element(const char* list, std::uint64_t i) const {
         if (!root_.contains(list) || !root_.at(list).is_array() || i >= root_.at(list).size())
-            fail(fmt::format("{} {}", list, i), fmt::format("one of {}", root_.contains(list) ? root_.at(list).size() : 0));
+            fail(fmt::format("{} {}", list, i),
+                 fmt::format("one of {}", root_.contains(list) ? root_.at(list).size() : 0));
         const json& one = root_.at(list)[i];
         if (!one.is_object()) fail(fmt::format("{} {} that is no object", list, i), "an object");
         return one;
@@ -149,7 +155,8 @@ private:
         content_ = bytes_of(file_, "a glTF file");
         std::string_view text = content_;
         if (text.substr(0, 4) == "glTF") text = json_chunk();
-        if (text.size() > most_json_bytes) fail(fmt::format("{} bytes of JSON", text.size()), fmt::format("at most {}", most_json_bytes));
+        if (text.size() > most_json_bytes)
+            fail(fmt::format("{} bytes of JSON", text.size()), fmt::format("at most {}", most_json_bytes));
         root_ = json::parse(text.begin(), text.end());
         if (!root_.is_object() || !root_.contains("asset")) fail("no asset in its JSON", "a glTF 2.0 file");
         const std::string version = root_.at("asset").value("version", "");
@@ -157,8 +164,9 @@ private:
         if (root_.contains("extensionsRequired"))
             for (const json& extension : root_.at("extensionsRequired")) {
                 const std::string& name = extension.get_ref<const std::string&>();
-                if (name.rfind("KHR_materials_", 0) != 0 && name != "KHR_texture_transform" && name.rfind("EXT_texture_", 0) != 0 &&
-                    name != "KHR_texture_basisu" && name != "KHR_lights_punctual")
+                if (name.rfind("KHR_materials_", 0) != 0 && name != "KHR_texture_transform" &&
+                    name.rfind("EXT_texture_", 0) != 0 && name != "KHR_texture_basisu" &&
+                    name != "KHR_lights_punctual")
                     fail("the required extension " + in_quotes(name), "a file without it");
             }
         if (root_.contains("buffers"))
@@ -167,19 +175,21 @@ private:
 
     static std::uint32_t word(std::string_view bytes, std::size_t at) {
         std::uint32_t value = 0;
-        for (std::size_t i = 0; i < 4; ++i) value |= std::uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
+        for (std::size_t i = 0; i < 4; ++i)
+            value |= std::uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
         return value;
     }
 
     // Of a .glb; sets chunk_ to its binary chunk.
     std::string_view json_chunk() {
         const std::string_view bytes = content_;
-        if (bytes.size() < 20 || word(bytes, 4) != 2 || word(bytes, 8) > bytes.size() || word(bytes, 16) != 0x4E4F534A ||
-            word(bytes, 12) > bytes.size() - 20)
+        if (bytes.size() < 20 || word(bytes, 4) != 2 || word(bytes, 8) > bytes.size() ||
+            word(bytes, 16) != 0x4E4F534A || word(bytes, 12) > bytes.size() - 20)
             fail("a GLB header of another version or beyond the file's end", "a whole GLB file");
         const std::size_t length = word(bytes, 12), next = 20 + length;
         if (bytes.size() - next >= 8 && word(bytes, next + 4) == 0x004E4942) {
-            if (word(bytes, next) > bytes.size() - next - 8) fail("a binary chunk beyond the file's end", "a whole GLB file");
+            if (word(bytes, next) > bytes.size() - next - 8)
+                fail("a binary chunk beyond the file's end", "a whole GLB file");
             chunk_ = bytes.substr(next + 8, word(bytes, next));
         }
         return bytes.substr(20, length);
@@ -202,7 +212,8 @@ private:
             }
         }
         if (bytes.size() < length)
-            fail(fmt::format("buffer {} of {} bytes", i, bytes.size()), fmt::format("the {} that it declares", length));
+            fail(fmt::format("buffer {} of {} bytes", i, bytes.size()),
+                 fmt::format("the {} that it declares", length));
         total_bytes_ += bytes.size();
         if (total_bytes_ > most_file_bytes) fail("more than 2^30 bytes of buffers", "at most that");
         bytes.resize(length);
@@ -210,7 +221,12 @@ private:
     }
 
     static std::string decoded(const std::string& uri) {
-        const auto digit = [](char c) { return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1; };
+        const auto digit = [](char c) {
+            return c >= '0' && c <= '9'   ? c - '0'
+                   : c >= 'a' && c <= 'f' ? c - 'a' + 10
+                   : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                          : -1;
+        };
         std::string text;
         for (std::size_t i = 0; i < uri.size(); ++i) {
             if (uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0) {
@@ -227,25 +243,34 @@ private:
     View view(std::uint64_t index, const char* type, std::size_t element_bytes) const {
         const json& accessor = element("accessors", index);
         const std::string what = fmt::format("accessor {}", index);
-        if (accessor.value("type", "") != type) fail(what + " of type " + in_quotes(accessor.value("type", "")), type);
-        if (accessor.contains("sparse") || !accessor.contains("bufferView")) fail(what + " without a bufferView, or sparse", "one with");
+        if (accessor.value("type", "") != type)
+            fail(what + " of type " + in_quotes(accessor.value("type", "")), type);
+        if (accessor.contains("sparse") || !accessor.contains("bufferView"))
+            fail(what + " without a bufferView, or sparse", "one with");
         const json& buffer_view = element("bufferViews", whole(accessor, "bufferView", 0));
         const std::uint64_t buffer = whole(buffer_view, "buffer", ~0ull);
-        if (buffer >= buffers_.size()) fail(fmt::format("buffer {}", buffer), fmt::format("one of {}", buffers_.size()));
-        const std::uint64_t in_view = whole(accessor, "byteOffset", 0), start = whole(buffer_view, "byteOffset", 0);
+        if (buffer >= buffers_.size())
+            fail(fmt::format("buffer {}", buffer), fmt::format("one of {}", buffers_.size()));
+        const std::uint64_t in_view = whole(accessor, "byteOffset", 0),
+                            start = whole(buffer_view, "byteOffset", 0);
         const std::uint64_t length = whole(buffer_view, "byteLength", 0), count = whole(accessor, "count", 0);
         const std::uint64_t stride = whole(buffer_view, "byteStride", element_bytes);
         const std::uint64_t bytes = buffers_[buffer].size();
         if (start > bytes || length > bytes - start)
-            fail(fmt::format("a bufferView of {} bytes at {}", length, start), fmt::format("at most the buffer's {}", bytes));
-        if (stride < element_bytes || stride > 1024) fail(fmt::format("byteStride {}", stride), fmt::format("{} to 1024", element_bytes));
-        if (count > 0 && (in_view > length || length - in_view < element_bytes || count - 1 > (length - in_view - element_bytes) / stride))
-            fail(fmt::format("{} of {} elements at byte {}", what, count, in_view), fmt::format("what fits the {} bytes of its bufferView", length));
+            fail(fmt::format("a bufferView of {} bytes at {}", length, start),
+                 fmt::format("at most the buffer's {}", bytes));
+        if (stride < element_bytes || stride > 1024)
+            fail(fmt::format("byteStride {}", stride), fmt::format("{} to 1024", element_bytes));
+        if (count > 0 && (in_view > length || length - in_view < element_bytes ||
+                          count - 1 > (length - in_view - element_bytes) / stride))
+            fail(fmt::format("{} of {} elements at byte {}", what, count, in_view),
+                 fmt::format("what fits the {} bytes of its bufferView", length));
         return {buffers_[buffer].data() + start + in_view, count, stride};
     }
 
     std::vector<Vec3> points(std::uint64_t accessor) const {
-        if (whole(element("accessors", accessor), "componentType", 0) != 5126) fail(fmt::format("accessor {} that is not float", accessor), "floats");
+        if (whole(element("accessors", accessor), "componentType", 0) != 5126)
+            fail(fmt::format("accessor {} that is not float", accessor), "floats");
         const View all = view(accessor, "VEC3", 12);
         std::vector<Vec3> values(all.count);
         for (std::size_t i = 0; i < all.count; ++i)
@@ -265,7 +290,8 @@ private:
         std::vector<std::uint32_t> values(all.count);
         for (std::size_t i = 0; i < all.count; ++i) {
             std::memcpy(&values[i], all.data + i * all.stride, bytes);
-            if (values[i] >= vertices) fail(fmt::format("index {} of {} vertices", values[i], vertices), "one below");
+            if (values[i] >= vertices)
+                fail(fmt::format("index {} of {} vertices", values[i], vertices), "one below");
         }
         return values;
     }
@@ -277,18 +303,23 @@ private:
             const json& material = element("materials", i);
             MetallicRoughness terms;
             const json none = json::object();
-            const json& surface = material.contains("pbrMetallicRoughness") ? material.at("pbrMetallicRoughness") : none;
+            const json& surface =
+                material.contains("pbrMetallicRoughness") ? material.at("pbrMetallicRoughness") : none;
             const auto color = numbers<4>(surface, "baseColorFactor", {1, 1, 1, 1});
-            terms.base_color = {static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2])};
+            terms.base_color = {static_cast<float>(color[0]), static_cast<float>(color[1]),
+                                static_cast<float>(color[2])};
             if (material.value("alphaMode", "OPAQUE") == "BLEND") terms.alpha = static_cast<float>(color[3]);
             terms.metallic = static_cast<float>(number(surface, "metallicFactor", 1));
             terms.roughness = static_cast<float>(number(surface, "roughnessFactor", 1));
             const json& extensions = material.contains("extensions") ? material.at("extensions") : none;
             if (extensions.contains("KHR_materials_transmission"))
-                terms.transmission = static_cast<float>(number(extensions.at("KHR_materials_transmission"), "transmissionFactor", 0));
+                terms.transmission = static_cast<float>(
+                    number(extensions.at("KHR_materials_transmission"), "transmissionFactor", 0));
             if (extensions.contains("KHR_materials_ior"))
-                terms.index_of_refraction = static_cast<float>(number(extensions.at("KHR_materials_ior"), "ior", 1.5));
-            mesh_.materials.push_back(material_of(material.value("name", fmt::format("material {}", i)), terms));
+                terms.index_of_refraction =
+                    static_cast<float>(number(extensions.at("KHR_materials_ior"), "ior", 1.5));
+            mesh_.materials.push_back(
+                material_of(material.value("name", fmt::format("material {}", i)), terms));
         }
     }
 
@@ -318,7 +349,8 @@ private:
         const auto push = [&](const json& list, const Affine& place) {
             if (!list.is_array()) fail("nodes that are no list", "a list");
             for (std::size_t i = list.size(); i-- > 0;) {
-                if (!list[i].is_number_unsigned()) fail("a node " + in_quotes(list[i].dump()), "a whole number");
+                if (!list[i].is_number_unsigned())
+                    fail("a node " + in_quotes(list[i].dump()), "a whole number");
                 open.push_back({list[i].get<std::uint64_t>(), place});
             }
         };
@@ -327,7 +359,8 @@ private:
             const Visit visit = open.back();
             open.pop_back();
             const json& node = element("nodes", visit.node);
-            if (visited[visit.node]) fail(fmt::format("node {} in two places", visit.node), "nodes that make trees");
+            if (visited[visit.node])
+                fail(fmt::format("node {} in two places", visit.node), "nodes that make trees");
             visited[visit.node] = 1;
             const Affine place = product(visit.place, place_of(node));
             if (node.contains("mesh")) add_mesh(element("meshes", whole(node, "mesh", 0)), place);
@@ -368,7 +401,8 @@ private:
             if (primitive.contains("indices")) {
                 order = indices(whole(primitive, "indices", 0), vertices.size());
             } else {
-                for (std::size_t i = 0; i < vertices.size(); ++i) order.push_back(static_cast<std::uint32_t>(i));
+                for (std::size_t i = 0; i < vertices.size(); ++i)
+                    order.push_back(static_cast<std::uint32_t>(i));
             }
             std::vector<Vec3> normals;
             if (attributes.contains("NORMAL")) normals = points(whole(attributes, "NORMAL", 0));
@@ -377,12 +411,14 @@ private:
         }
     }
 
-    void append(const std::vector<Vec3>& vertices, const std::vector<Vec3>& normals, const std::vector<std::uint32_t>& order,
-                std::uint64_t mode, const Affine& place, std::uint32_t material) {
+    void append(const std::vector<Vec3>& vertices, const std::vector<Vec3>& normals,
+                const std::vector<std::uint32_t>& order, std::uint64_t mode, const Affine& place,
+                std::uint32_t material) {
         Surface& surface = mesh_.surface;
         const std::size_t count = mode == 4 ? order.size() / 3 : order.size() < 3 ? 0 : order.size() - 2;
         // Nodes may share a mesh and primitives an accessor: a small file can ask for any number of them.
-        if (surface.triangles.size() + count > most_triangles || surface.vertices.size() + vertices.size() > 3 * most_triangles)
+        if (surface.triangles.size() + count > most_triangles ||
+            surface.vertices.size() + vertices.size() > 3 * most_triangles)
             fail(fmt::format("more than {} triangles", most_triangles), "at most as many");
         double determinant = 0;
         const Affine turn = cofactors(place, determinant);

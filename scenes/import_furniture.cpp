@@ -37,10 +37,10 @@ struct Item {
     float cell;  ///< [m] The model is simplified to details of that size; 0: not.
 };
 
-// A board of 126,000 triangles would outnumber all else: 1.6 mm are below a pixel at the distance it is seen from.
+// A board of 126,000 triangles would outnumber all else: 2 mm are below a pixel at the distance it is seen from.
 constexpr std::array items{
     Item{"blendswap-cc-0/oakTable/oakTable.obj", 1.24, 1.24, table_top, 0, 0, 0, 0, "", 0},
-    Item{"blendswap-cc-by/chessboard/chessboard.obj", 0.42, 0.42, 0.112, -0.06, 0.05, table_top, 12, "", 0.0016f},
+    Item{"blendswap-cc-by/chessboard/chessboard.obj", 0.42, 0.42, 0.112, -0.06, 0.05, table_top, 12, "", 0.0020f},
     Item{"blendswap-cc-0/beerGlass/beerGlass.obj", 0.154, 0.102, 0.165, 0.30, -0.12, table_top, 200, "", 0},
     Item{"blendswap-cc-by/glass/glass.obj", 0.075, 0.074, 0.195, -0.36, -0.20, table_top, 0, "", 0},
     Item{"blendswap-cc-by/glass/glass.obj", 0.075, 0.074, 0.195, -0.27, -0.30, table_top, 90, "", 0},

@@ -31,9 +31,8 @@ Material read_material(const std::string& name, const Node& node) {
     const Vec3 sum = material.diffuse + material.specular;
     for (int channel = 0; channel < 3; ++channel)
         if (sum[channel] > 1 + 1e-6f)  // 0.7 + 0.3 in floats may round up.
-            node.fail(
-                fmt::format("diffuse + specular = {:.6g} in {}", sum[channel], channel_names[channel]),
-                "at most 1 in each channel");
+            node.fail(fmt::format("diffuse + specular = {:.6g} in {}", sum[channel], channel_names[channel]),
+                      "at most 1 in each channel");
     return material;
 }
 

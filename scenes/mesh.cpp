@@ -71,7 +71,8 @@ std::string content_of(const std::filesystem::path& file) {
     std::error_code error;
     const std::uintmax_t bytes = std::filesystem::file_size(file, error);
     if (error || bytes > most_file_bytes)
-        throw DataError(fmt::format("{}: found {} bytes, expected at most {}", file.string(), bytes, most_file_bytes));
+        throw DataError(
+            fmt::format("{}: found {} bytes, expected at most {}", file.string(), bytes, most_file_bytes));
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -80,7 +81,8 @@ std::string content_of(const std::filesystem::path& file) {
 std::string check_obj_and_libraries(const std::filesystem::path& file, CheckedFiles& files) {
     const ObjContents contents = check_obj(content_of(file));
     if (!contents.damage.empty())
-        throw DataError(fmt::format("{}: found {}, expected a whole OBJ file", file.string(), contents.damage));
+        throw DataError(
+            fmt::format("{}: found {}, expected a whole OBJ file", file.string(), contents.damage));
     std::string missing;
     for (const std::string& name : contents.libraries) {
         std::filesystem::path library = file.parent_path() / name;
@@ -102,12 +104,14 @@ std::string check_obj_and_libraries(const std::filesystem::path& file, CheckedFi
 
 Vec3 color_of(const aiMaterial& from, const char* key, unsigned type, unsigned index, Vec3 otherwise) {
     aiColor3D color;
-    return from.Get(key, type, index, color) == aiReturn_SUCCESS ? Vec3{color.r, color.g, color.b} : otherwise;
+    return from.Get(key, type, index, color) == aiReturn_SUCCESS ? Vec3{color.r, color.g, color.b}
+                                                                 : otherwise;
 }
 
 Material own_material(const aiMaterial& from) {
     aiString name;
-    if (from.Get(AI_MATKEY_NAME, name) != aiReturn_SUCCESS || std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME)
+    if (from.Get(AI_MATKEY_NAME, name) != aiReturn_SUCCESS ||
+        std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME)
         return {.name = "default"};
     MtlTerms terms;
     terms.kd = color_of(from, AI_MATKEY_COLOR_DIFFUSE, terms.kd);
@@ -163,7 +167,8 @@ Mesh read_by_assimp(const std::filesystem::path& file, const std::string& extens
     const aiScene* scene = importer.ReadFile(
         name, aiProcess_ValidateDataStructure | aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
     if (scene == nullptr) throw DataError(fmt::format("{}: found damaged data ({})", name, reason(importer)));
-    for (unsigned m = 0; m < scene->mNumMaterials; ++m) mesh.materials.push_back(own_material(*scene->mMaterials[m]));
+    for (unsigned m = 0; m < scene->mNumMaterials; ++m)
+        mesh.materials.push_back(own_material(*scene->mMaterials[m]));
     for (unsigned m = 0; m < scene->mNumMeshes; ++m) append(mesh, *scene->mMeshes[m]);
     return mesh;
 }
@@ -177,7 +182,8 @@ Mesh read_mesh(const std::filesystem::path& file) {
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const bool is_gltf = extension == ".gltf" || extension == ".glb";
     if (extension != ".obj" && extension != ".ply" && !is_gltf)
-        throw DataError(fmt::format("{}: found the extension {}, expected .obj, .ply, .gltf or .glb", name, in_quotes(extension)));
+        throw DataError(fmt::format("{}: found the extension {}, expected .obj, .ply, .gltf or .glb", name,
+                                    in_quotes(extension)));
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error))
         throw DataError(fmt::format("{}: found no file, expected an OBJ, PLY or glTF mesh", name));

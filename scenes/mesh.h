@@ -1,5 +1,5 @@
-// scenes/mesh.h -- triangles and materials from OBJ, PLY, glTF and GLB files. OBJ and PLY are read by Assimp after a check of
-// our own (scenes/obj.h, scenes/ply.h), glTF by scenes/gltf.h.
+// scenes/mesh.h -- triangles and materials from OBJ, PLY, glTF and GLB files. OBJ and PLY are read by Assimp
+// after a check of our own (scenes/obj.h, scenes/ply.h), glTF by scenes/gltf.h.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -14,13 +14,16 @@ namespace regather::scenes {
 struct Mesh {
     Surface surface;  ///< In the file's own coordinates; the file's normals where it has them.
     std::vector<std::uint32_t> triangle_material;  ///< Index into materials.
-    std::vector<Material> materials;  ///< The file's own, by its names; faces without one have "default", a grey of 0.5.
+    std::vector<Material>
+        materials;  ///< The file's own, by its names; faces without one have "default", a grey of 0.5.
     std::uint64_t degenerate_faces = 0;  ///< Without area (in float coordinates), points and lines: left out.
-    std::string missing_library;  ///< Of an OBJ: a material library (.mtl) that it names and that is not there; else "".
+    std::string missing_library;  ///< Of an OBJ: a material library (.mtl) that it names and that is not
+                                  ///< there; else "".
 };
 
-/// Polygons are triangulated; textures are not read. Throws trace::DataError that names the file when it is missing, damaged,
-/// of another kind, or has no triangle with an area. The memory used is in proportion to the bytes of the file.
+/// Polygons are triangulated; textures are not read. Throws trace::DataError that names the file when it is
+/// missing, damaged, of another kind, or has no triangle with an area. The memory used is in proportion to
+/// the bytes of the file.
 Mesh read_mesh(const std::filesystem::path& file);
 
 }  // namespace regather::scenes

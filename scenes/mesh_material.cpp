@@ -8,8 +8,12 @@ namespace regather::scenes {
 namespace {
 
 // Not finite counts as 0.
-float clamped(float x, float low, float high) { return std::isfinite(x) ? std::clamp(x, low, high) : low; }
-Vec3 clamped(Vec3 v) { return {clamped(v.x, 0, 1), clamped(v.y, 0, 1), clamped(v.z, 0, 1)}; }
+float clamped(float x, float low, float high) {
+    return std::isfinite(x) ? std::clamp(x, low, high) : low;
+}
+Vec3 clamped(Vec3 v) {
+    return {clamped(v.x, 0, 1), clamped(v.y, 0, 1), clamped(v.z, 0, 1)};
+}
 
 void make_glossy(Material& material, Vec3 specular, float exponent) {
     for (int c = 0; c < 3; ++c) specular[c] = std::min(specular[c], 1 - material.diffuse[c]);

@@ -14,7 +14,9 @@ namespace regather::scenes {
 
 namespace {
 
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+bool is_space(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
 
 std::string_view next_word(std::string_view& text) {
     while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
@@ -100,7 +102,8 @@ ObjContents check_obj(std::string_view bytes) {
         } else if (keyword == "vt") {
             if (!is_finite_number(next_word(rest))) return "a texture coordinate without a finite number";
         } else if (keyword == "f" || keyword == "l" || keyword == "p") {
-            for (std::string_view word = next_word(rest); !word.empty() && word.front() != '#'; word = next_word(rest))
+            for (std::string_view word = next_word(rest); !word.empty() && word.front() != '#';
+                 word = next_word(rest))
                 if (!names_what_is_there(word, before, all))
                     return fmt::format("the corner {} of {} vertices", in_quotes(word), all[0]);
         } else if (keyword == "mtllib") {
@@ -127,7 +130,8 @@ std::string mtl_damage(std::string_view bytes) {
             const std::string_view word = next_word(first);
             if (word == "spectral" || word == "xyz") return "a colour that is not three numbers";
             numbers = 3;
-        } else if (keyword == "Ns" || keyword == "Ni" || keyword == "d" || keyword == "Tr" || keyword == "illum") {
+        } else if (keyword == "Ns" || keyword == "Ni" || keyword == "d" || keyword == "Tr" ||
+                   keyword == "illum") {
             numbers = 1;
         }
         for (std::size_t i = 0; i < numbers; ++i)

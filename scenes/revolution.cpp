@@ -35,7 +35,8 @@ std::uint64_t triangles_of(const Profile& profile, std::uint32_t segments) {
     return count;
 }
 
-// Each stretch of the profile has two rings of its own: the places of equal points are equal, their normals may differ.
+// Each stretch of the profile has two rings of its own: the places of equal points are equal, their normals
+// may differ.
 Surface revolve(const Profile& profile, std::uint32_t segments, const Axis& axis, bool smooth,
                 double least_cosine = crease) {
     Surface surface;
@@ -61,13 +62,15 @@ Surface revolve(const Profile& profile, std::uint32_t segments, const Axis& axis
     for (std::size_t stretch = 0; stretch < stretches; ++stretch) {
         const Point a = profile[stretch], b = profile[stretch + 1];
         const bool has_before = stretch > 0 || is_ring, has_after = stretch + 1 < stretches || is_ring;
-        const Point at_a = has_before ? shared(stretch, (stretch + stretches - 1) % stretches) : normal_of(stretch);
+        const Point at_a =
+            has_before ? shared(stretch, (stretch + stretches - 1) % stretches) : normal_of(stretch);
         const Point at_b = has_after ? shared(stretch, (stretch + 1) % stretches) : normal_of(stretch);
         const auto first = static_cast<std::uint32_t>(surface.vertices.size());
         for (std::uint32_t i = 0; i < segments; ++i) add_vertex(a, at_a, i);
         for (std::uint32_t i = 0; i < segments; ++i) add_vertex(b, at_b, i);
         for (std::uint32_t i = 0; i < segments; ++i) {
-            const std::uint32_t a0 = first + i, a1 = first + (i + 1) % segments, b0 = a0 + segments, b1 = a1 + segments;
+            const std::uint32_t a0 = first + i, a1 = first + (i + 1) % segments, b0 = a0 + segments,
+                                b1 = a1 + segments;
             if (a[0] > 0) surface.triangles.push_back({a0, a1, b1});
             if (b[0] > 0) surface.triangles.push_back({a0, b1, b0});
         }
@@ -75,7 +78,9 @@ Surface revolve(const Profile& profile, std::uint32_t segments, const Axis& axis
     return surface;
 }
 
-Axis upright(Vec3 base) { return {{base.x, base.y, base.z}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}; }
+Axis upright(Vec3 base) {
+    return {{base.x, base.y, base.z}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+}
 
 Axis axis_along(Vec3 base, double x, double y, double z) {
     const double length = std::sqrt(x * x + y * y + z * z);
@@ -87,7 +92,8 @@ Axis axis_along(Vec3 base, double x, double y, double z) {
         if (std::abs(w[k]) < std::abs(w[least])) least = k;
     far[least] = 1;
     const auto across = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
-        return std::array<double, 3>{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+        return std::array<double, 3>{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                                     a[0] * b[1] - a[1] * b[0]};
     };
     std::array<double, 3> u = across(far, w);
     const double scale = 1 / std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
@@ -102,7 +108,8 @@ Profile profile_of(const Lathe& lathe) {
 }
 
 std::array<double, 3> course_of(const Cylinder& c) {
-    return {static_cast<double>(c.to.x) - c.from.x, static_cast<double>(c.to.y) - c.from.y, static_cast<double>(c.to.z) - c.from.z};
+    return {static_cast<double>(c.to.x) - c.from.x, static_cast<double>(c.to.y) - c.from.y,
+            static_cast<double>(c.to.z) - c.from.z};
 }
 
 Profile profile_of(const Cylinder& cylinder) {
@@ -127,9 +134,15 @@ Profile profile_of(const Torus& torus) {
 
 }  // namespace
 
-std::uint64_t triangle_count(const Lathe& lathe) { return triangles_of(profile_of(lathe), lathe.segments); }
-std::uint64_t triangle_count(const Cylinder& cylinder) { return triangles_of(profile_of(cylinder), cylinder.segments); }
-std::uint64_t triangle_count(const Torus& torus) { return 2ull * torus.segments * torus.tube_segments; }
+std::uint64_t triangle_count(const Lathe& lathe) {
+    return triangles_of(profile_of(lathe), lathe.segments);
+}
+std::uint64_t triangle_count(const Cylinder& cylinder) {
+    return triangles_of(profile_of(cylinder), cylinder.segments);
+}
+std::uint64_t triangle_count(const Torus& torus) {
+    return 2ull * torus.segments * torus.tube_segments;
+}
 
 Surface tessellate(const Lathe& lathe) {
     return revolve(profile_of(lathe), lathe.segments, upright(lathe.center), lathe.smooth);
@@ -137,12 +150,13 @@ Surface tessellate(const Lathe& lathe) {
 
 Surface tessellate(const Cylinder& cylinder) {
     const auto [x, y, z] = course_of(cylinder);
-    return revolve(profile_of(cylinder), cylinder.segments, axis_along(cylinder.from, x, y, z), cylinder.smooth);
+    return revolve(profile_of(cylinder), cylinder.segments, axis_along(cylinder.from, x, y, z),
+                   cylinder.smooth);
 }
 
 Surface tessellate(const Torus& torus) {
-    return revolve(profile_of(torus), torus.segments, axis_along(torus.center, torus.axis.x, torus.axis.y, torus.axis.z), true,
-                   no_crease);
+    return revolve(profile_of(torus), torus.segments,
+                   axis_along(torus.center, torus.axis.x, torus.axis.y, torus.axis.z), true, no_crease);
 }
 
 }  // namespace regather::scenes

@@ -36,7 +36,8 @@ struct Placement {
     std::array<double, 3> translate{};
 
     void apply(Surface& surface) const {
-        const double angle = degrees * std::numbers::pi / 180, cosine = std::cos(angle), sine = std::sin(angle);
+        const double angle = degrees * std::numbers::pi / 180, cosine = std::cos(angle),
+                     sine = std::sin(angle);
         for (Vec3& v : surface.vertices) {
             if (y_is_up) v = {v.x, -v.z, v.y};
             const double x = scale * v.x, y = scale * v.y;
@@ -46,7 +47,8 @@ struct Placement {
         }
         for (Vec3& n : surface.normals) {
             if (y_is_up) n = {n.x, -n.z, n.y};
-            n = {static_cast<float>(cosine * n.x - sine * n.y), static_cast<float>(sine * n.x + cosine * n.y), n.z};
+            n = {static_cast<float>(cosine * n.x - sine * n.y), static_cast<float>(sine * n.x + cosine * n.y),
+                 n.z};
         }
     }
 };
@@ -65,7 +67,8 @@ public:
         const Kind& kind = scene_kind();
         root.check_object(kind);
         read_name(root["name"]);
-        for (const auto& [key, text] : {std::pair{"origin", &Scene::origin}, std::pair{"licence", &Scene::licence}})
+        for (const auto& [key, text] :
+             {std::pair{"origin", &Scene::origin}, std::pair{"licence", &Scene::licence}})
             if (root.has(key)) {
                 scene_.*text = root[key].text(expected(kind, key));
                 if ((scene_.*text).size() > most_text)
@@ -79,7 +82,8 @@ public:
                 scene_.materials.push_back(read_material(name, node));
             }
         if (root.has("objects"))
-            for (const auto& [name, node] : root["objects"].members(expected(kind, "objects"))) read_object(name, node);
+            for (const auto& [name, node] : root["objects"].members(expected(kind, "objects")))
+                read_object(name, node);
         if (root.has("shapes"))
             for (const Node& node : root["shapes"].elements(expected(kind, "shapes"))) add_shape(node);
         if (root.has("lights"))
@@ -104,10 +108,12 @@ private:
 
     // `eye`: "the camera".
     static void check_view(const Node& node, const Kind& kind, Vec3 up, std::string_view eye) {
-        const auto from = Coordinates::absolute(node, kind, "position"), to = Coordinates::absolute(node, kind, "target");
+        const auto from = Coordinates::absolute(node, kind, "position"),
+                   to = Coordinates::absolute(node, kind, "target");
         const Vec3 view{static_cast<float>(to[0] - from[0]), static_cast<float>(to[1] - from[1]),
                         static_cast<float>(to[2] - from[2])};
-        if (view == Vec3{}) node["target"].fail(fmt::format("{}'s position", eye), "a target apart from the position");
+        if (view == Vec3{})
+            node["target"].fail(fmt::format("{}'s position", eye), "a target apart from the position");
         const float sine = length(cross(normalize(view), normalize(up)));
         if (!(sine > least_sine))
             (node.has("up") ? node["up"] : node)
@@ -139,7 +145,8 @@ private:
             KeyFrame frame;
             frame.frame = key["frame"].whole(0, scene_.frames - 1, expected(key_kind, "frame"));
             const bool is_first = scene_.camera_path.empty();
-            if (is_first && frame.frame != 0) key["frame"].fail(fmt::format("{}", frame.frame), "0 in the first key frame");
+            if (is_first && frame.frame != 0)
+                key["frame"].fail(fmt::format("{}", frame.frame), "0 in the first key frame");
             if (!is_first && frame.frame <= scene_.camera_path.back().frame)
                 key["frame"].fail(fmt::format("{} after {}", frame.frame, scene_.camera_path.back().frame),
                                   expected(key_kind, "frame"));
@@ -150,8 +157,9 @@ private:
             scene_.camera_path.push_back(frame);
         }
         if (scene_.camera_path.back().frame != scene_.frames - 1)
-            keys.back()["frame"].fail(fmt::format("{}", scene_.camera_path.back().frame),
-                                      fmt::format("{}, the last frame, in the last key frame", scene_.frames - 1));
+            keys.back()["frame"].fail(
+                fmt::format("{}", scene_.camera_path.back().frame),
+                fmt::format("{}, the last frame, in the last key frame", scene_.frames - 1));
     }
 
     // --- materials ---
@@ -161,7 +169,8 @@ private:
         std::vector<std::string_view> names;
         for (const auto& [known, index] : materials_) names.push_back(known);
         if (names.empty()) node.fail(in_quotes(name), "a material, and the scene has none");
-        node.fail("unknown material " + in_quotes(name), trace::alternatives(trace::nearest_words(name, names)));
+        node.fail("unknown material " + in_quotes(name),
+                  trace::alternatives(trace::nearest_words(name, names)));
     }
 
     std::uint32_t material_of(const Node& node, const Kind& kind) const {
@@ -178,7 +187,8 @@ private:
     }
 
     // Which of the scene's materials each of the mesh's own is.
-    std::vector<std::uint32_t> own_materials(const Node& node, const Kind& kind, const std::string& file, const Mesh& mesh) {
+    std::vector<std::uint32_t> own_materials(const Node& node, const Kind& kind, const std::string& file,
+                                             const Mesh& mesh) {
         constexpr std::uint32_t none = ~0u;
         std::vector<std::uint32_t> chosen(mesh.materials.size(), none);
         if (node.has("materials"))
@@ -214,6 +224,16 @@ private:
     }
 
     // --- shapes ---
+    // Kept and not thrown: near another origin the shape may have its area.
+    void note_flat(const Node& node, std::string_view found, std::string_view expected) {
+        if (flat_shape_) return;
+        try {
+            node.fail(found, expected);
+        } catch (const DataError& error) {
+            flat_shape_ = error.what();
+        }
+    }
+
     void require_room_for(const Node& node, std::uint64_t triangles) const {
         if (triangles > most_triangles || triangles > most_triangles - scene_.triangles.size())
             node.fail(
@@ -226,14 +246,11 @@ private:
         require_room_for(node, triangle_count(shape));
         Surface surface = tessellate(shape);
         const std::uint64_t lost = degenerate_count(surface);
-        if (lost > 0 && !flat_shape_) {
-            try {
-                node.fail(fmt::format("{} of {} triangles without area in 32-bit floats", lost, surface.triangles.size()),
-                          "a larger or less divided shape, or one nearer to the others");
-            } catch (const DataError& error) {
-                flat_shape_ = error.what();
-            }
-        }
+        if (lost > 0)
+            note_flat(node,
+                      fmt::format("{} of {} triangles without area in 32-bit floats", lost,
+                                  surface.triangles.size()),
+                      "a larger or less divided shape, or one nearer to the others");
         return surface;
     }
 
@@ -256,17 +273,24 @@ private:
             placement.y_is_up = axis == "y";
         }
         if (node.has("scale"))
-            placement.scale = node["scale"].number(0, most_metres, expected(kind, "scale"), Node::Ends::open_low);
+            placement.scale =
+                node["scale"].number(0, most_metres, expected(kind, "scale"), Node::Ends::open_low);
         placement.degrees = Coordinates::degrees(node, kind, "rotate_z_degrees");
         if (node.has("translate")) placement.translate = Coordinates::absolute(node, kind, "translate");
         for (std::size_t axis = 0; axis < 3; ++axis) placement.translate[axis] -= coordinates.origin()[axis];
         Piece piece{mesh.surface, mesh.triangle_material};
         placement.apply(piece.surface);
-        scene_.degenerate_faces_dropped += mesh.degenerate_faces + drop_degenerate(piece.surface, &piece.material);
-        if (piece.surface.triangles.empty())
-            (node.has("scale") ? node["scale"] : node).fail("no triangle with an area at that scale", expected(kind, "scale"));
+        scene_.degenerate_faces_dropped += mesh.degenerate_faces;
+        if (degenerate_count(piece.surface) < piece.surface.triangles.size()) {
+            scene_.degenerate_faces_dropped += drop_degenerate(piece.surface, &piece.material);
+        } else {
+            note_flat(node.has("scale") ? node["scale"] : node,
+                      "no triangle with an area at that scale and place",
+                      "a larger factor, or a place nearer to the others");
+        }
         for (const Vec3 p : piece.surface.vertices)
-            if (!(std::abs(p.x) <= most_coordinate && std::abs(p.y) <= most_coordinate && std::abs(p.z) <= most_coordinate))
+            if (!(std::abs(p.x) <= most_coordinate && std::abs(p.y) <= most_coordinate &&
+                  std::abs(p.z) <= most_coordinate))
                 node["file"].fail(fmt::format("a vertex at ({}, {}, {}) m", p.x, p.y, p.z),
                                   expected(shape_kinds()[0], "corner"));
         return piece;
@@ -301,7 +325,8 @@ private:
         std::vector<Piece>& pieces = objects_[name];
         for (const Node& shape : node.elements("a list of shapes")) {
             const Kind& kind = shape.check_object(shape_kinds(), "type", "shape");
-            if (kind.name == "instances") shape["type"].fail(in_quotes(kind.name), "a shape that is not made of objects");
+            if (kind.name == "instances")
+                shape["type"].fail(in_quotes(kind.name), "a shape that is not made of objects");
             pieces.push_back(read_piece(shape, kind, own));
             require_room_for(shape, triangles += pieces.back().surface.triangles.size());
         }
@@ -315,27 +340,25 @@ private:
             std::vector<std::string_view> names;
             for (const auto& [known, pieces] : objects_) names.push_back(known);
             if (names.empty()) node["object"].fail(in_quotes(name), "an object, and the scene has none");
-            node["object"].fail("unknown object " + in_quotes(name), trace::alternatives(trace::nearest_words(name, names)));
+            node["object"].fail("unknown object " + in_quotes(name),
+                                trace::alternatives(trace::nearest_words(name, names)));
         }
         const std::string_view wanted = expected(kind, "at");
         for (const Node& place : node["at"].elements(wanted)) {
             const std::vector<Node> values = place.elements(wanted);
-            if (values.size() != 3 && values.size() != 4) place.fail(fmt::format("a list of {}", values.size()), wanted);
+            if (values.size() != 3 && values.size() != 4)
+                place.fail(fmt::format("a list of {}", values.size()), wanted);
             Placement placement;
             for (std::size_t axis = 0; axis < 3; ++axis)
-                placement.translate[axis] =
-                    values[axis].number(-most_coordinate, most_coordinate, wanted) - coordinates_.origin()[axis];
+                placement.translate[axis] = values[axis].number(-most_coordinate, most_coordinate, wanted) -
+                                            coordinates_.origin()[axis];
             if (values.size() == 4) placement.degrees = values[3].number(-360, 360, wanted);
             for (Piece piece : found->second) {
                 require_room_for(place, piece.surface.triangles.size());
                 placement.apply(piece.surface);
-                if (const std::uint64_t lost = degenerate_count(piece.surface); lost > 0 && !flat_shape_) {
-                    try {
-                        place.fail(fmt::format("{} triangles without area in 32-bit floats", lost), "a place nearer to the others");
-                    } catch (const DataError& error) {
-                        flat_shape_ = error.what();
-                    }
-                }
+                if (const std::uint64_t lost = degenerate_count(piece.surface); lost > 0)
+                    note_flat(place, fmt::format("{} triangles without area in 32-bit floats", lost),
+                              "a place nearer to the others");
                 append(piece, -1);
             }
         }
@@ -372,7 +395,8 @@ private:
             light.triangle_count = static_cast<std::uint32_t>(piece.surface.triangles.size());
             double area = 0;
             for (const auto& [a, b, c] : piece.surface.triangles)
-                area += triangle_area(piece.surface.vertices[a], piece.surface.vertices[b], piece.surface.vertices[c]);
+                area += triangle_area(piece.surface.vertices[a], piece.surface.vertices[b],
+                                      piece.surface.vertices[c]);
             light.mesh_area = static_cast<float>(area);
         }
         if (node.has("radiance") == node.has("power"))
@@ -395,7 +419,8 @@ private:
         scene_.normals.insert(scene_.normals.end(), surface.normals.begin(), surface.normals.end());
         for (const auto& [a, b, c] : surface.triangles)
             scene_.triangles.push_back({first + a, first + b, first + c});
-        scene_.triangle_material.insert(scene_.triangle_material.end(), piece.material.begin(), piece.material.end());
+        scene_.triangle_material.insert(scene_.triangle_material.end(), piece.material.begin(),
+                                        piece.material.end());
         scene_.triangle_light.resize(scene_.triangles.size(), light);
     }
 
@@ -403,7 +428,8 @@ private:
     MeshStore& meshes_;
     Scene scene_;
     std::map<std::string, std::uint32_t, std::less<>> materials_;
-    std::map<std::string, std::vector<std::uint32_t>> own_materials_;  // By mesh file: places in scene_.materials.
+    std::map<std::string, std::vector<std::uint32_t>>
+        own_materials_;  // By mesh file: places in scene_.materials.
     std::map<std::string, std::vector<Piece>, std::less<>> objects_;
     std::optional<std::uint32_t> black_;
     std::optional<std::string> flat_shape_;
@@ -413,7 +439,8 @@ private:
 
 const Mesh& MeshStore::get(const std::string& name) {
     const auto found = meshes_.find(name);
-    return found != meshes_.end() ? found->second : meshes_.emplace(name, read_mesh(directory_ / name)).first->second;
+    return found != meshes_.end() ? found->second
+                                  : meshes_.emplace(name, read_mesh(directory_ / name)).first->second;
 }
 
 BuiltScene build_scene(const Node& root, const std::array<double, 3>& origin, MeshStore& meshes) {

@@ -26,11 +26,13 @@ private:
 
 struct BuiltScene {
     Scene scene;
-    /// The refusal of the first shape that has triangles without area in floats; near another origin it may have none.
+    /// The refusal of the first shape that has triangles without area in floats; near another origin it may
+    /// have none.
     std::optional<std::string> flat_shape;
 };
 
-/// All points less `origin` [m], which goes into Scene::recentred_by. Throws trace::DataError for anything else that is wrong.
+/// All points less `origin` [m], which goes into Scene::recentred_by. Throws trace::DataError for anything
+/// else that is wrong.
 BuiltScene build_scene(const Node& root, const std::array<double, 3>& origin, MeshStore& meshes);
 
 }  // namespace regather::scenes

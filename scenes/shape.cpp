@@ -43,7 +43,8 @@ Patch read_patch(const Node& node, const Kind& kind, const Coordinates& coordina
     const std::vector<Node> corners = node["corners"].elements(wanted);
     if (corners.size() != 4) node["corners"].fail(fmt::format("a list of {}", corners.size()), wanted);
     for (std::size_t i = 0; i < 4; ++i)
-        patch.corners[i] = coordinates.to_float(corners[i].numbers(-most_coordinate, most_coordinate, wanted));
+        patch.corners[i] =
+            coordinates.to_float(corners[i].numbers(-most_coordinate, most_coordinate, wanted));
     read_divide(node, kind, patch.divide);
     return patch;
 }
@@ -120,8 +121,9 @@ Ripple read_ripple(const Node& node, const Kind& kind, const Coordinates& coordi
     ripple.wavelength = Coordinates::positive(node, kind, "wavelength");
     ripple.phase_degrees = Coordinates::degrees(node, kind, "phase_degrees");
     if (node.has("depth"))
-        ripple.depth = static_cast<float>(node["depth"].number(static_cast<double>(ripple.amplitude), most_metres,
-                                                               expected(kind, "depth"), Node::Ends::open_low));
+        ripple.depth =
+            static_cast<float>(node["depth"].number(static_cast<double>(ripple.amplitude), most_metres,
+                                                    expected(kind, "depth"), Node::Ends::open_low));
     ripple.cells = node["cells"].whole(1, most_ripple_cells, expected(kind, "cells"));
     return ripple;
 }

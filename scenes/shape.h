@@ -1,4 +1,5 @@
-// scenes/shape.h -- the shapes of a scene file that are made here and not read from a mesh file: from their JSON to triangles.
+// scenes/shape.h -- the shapes of a scene file that are made here and not read from a mesh file: from their
+// JSON to triangles.
 #pragma once
 #include <cstdint>
 #include <variant>
@@ -11,8 +12,8 @@ namespace regather::scenes {
 
 using Shape = std::variant<Quad, Patch, Box, Sphere, Cylinder, Lathe, Torus, Ripple>;
 
-/// An object of one of shape_kinds() other than mesh and instances, or a rectangle or sphere light, which has the keys of a
-/// quad without division or of a sphere. Refuses what is wrong in it.
+/// An object of one of shape_kinds() other than mesh and instances, or a rectangle or sphere light, which has
+/// the keys of a quad without division or of a sphere. Refuses what is wrong in it.
 Shape read_shape(const Node& node, const Kind& kind, const Coordinates& coordinates);
 
 std::uint64_t triangle_count(const Shape& shape);

@@ -1,4 +1,5 @@
-// study/case.h -- one stiff or extreme case: what it measures, against which truth, and how much error is allowed.
+// study/case.h -- one stiff or extreme case: what it measures, against which truth, and how much error is
+// allowed.
 #pragma once
 #include <functional>
 #include <string>
@@ -21,7 +22,7 @@ struct Case {
     std::string quantity;  ///< What the error is of.
     std::string reason;    ///< Why that much is allowed.
     std::function<Reading(Effort)> measure;
-    bool timed = false;    ///< The error is a ratio of measured times: not for tests.
+    bool timed = false;  ///< The error is a ratio of measured times: not for tests.
 };
 
 /// The groups' cases, one file each.

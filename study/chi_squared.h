@@ -4,16 +4,17 @@
 
 namespace regather::study {
 
-/// Chance of a chi-squared of at least this with so many degrees of freedom: the regularised incomplete gamma function
-/// Q(degrees / 2, chi_squared / 2), by series or continued fraction (Press et al., Numerical Recipes, section 6.2).
+/// Chance of a chi-squared of at least this with so many degrees of freedom: the regularised incomplete gamma
+/// function Q(degrees / 2, chi_squared / 2), by series or continued fraction (Press et al., Numerical
+/// Recipes, section 6.2).
 double chi_squared_tail(double chi_squared, double degrees);
 
-/// p-value of `observed`; cells that expect fewer than 5 are put together. Both sum to the same total. 0 for a count where
-/// none is expected.
+/// p-value of `observed`; cells that expect fewer than 5 are put together. Both sum to the same total. 0 for
+/// a count where none is expected.
 double chi_squared_p(std::span<const double> observed, std::span<const double> expected);
 
-/// The p-value under which one of `tests` tests has failed when all of them together may fail by chance with probability
-/// `significance` (Sidak 1967).
+/// The p-value under which one of `tests` tests has failed when all of them together may fail by chance with
+/// probability `significance` (Sidak 1967).
 double sidak(double significance, int tests);
 
 }  // namespace regather::study

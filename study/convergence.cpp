@@ -46,6 +46,10 @@ double mean_of(const capture::Image& image, const std::vector<std::uint8_t>& mas
     return sum / values;
 }
 
+std::uint64_t pixels_in(const std::vector<std::uint8_t>& mask) {
+    return static_cast<std::uint64_t>(std::count(mask.begin(), mask.end(), 1));
+}
+
 }  // namespace
 
 capture::CaptureConfig capture_config(const Setting& setting, const ConvergenceConfig& config, std::uint64_t seed) {
@@ -67,6 +71,26 @@ capture::CaptureConfig capture_config(const Setting& setting, const ConvergenceC
     return out;
 }
 
+std::vector<std::uint8_t> counted_pixels(const capture::Image& image) {
+    std::vector<float> brightness;
+    for (const trace::Vec3 pixel : image.pixels) brightness.push_back(pixel.x + pixel.y + pixel.z);
+    std::vector<float> sorted = brightness;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    const float most = 10 * *middle;
+    std::vector<std::uint8_t> mask(brightness.size(), 1);
+    if (most <= 0) return mask;  // half the image is black
+    const auto w = static_cast<std::int64_t>(image.width), h = static_cast<std::int64_t>(image.height);
+    for (std::int64_t y = 0; y < h; ++y)
+        for (std::int64_t x = 0; x < w; ++x) {
+            if (brightness[static_cast<std::size_t>(y * w + x)] <= most) continue;
+            for (std::int64_t v = std::max<std::int64_t>(y - 1, 0); v <= std::min(y + 1, h - 1); ++v)
+                for (std::int64_t u = std::max<std::int64_t>(x - 1, 0); u <= std::min(x + 1, w - 1); ++u)
+                    mask[static_cast<std::size_t>(v * w + u)] = 0;
+        }
+    return mask;
+}
+
 Truth truth_of(const capture::Reference& reference) {
     return {reference.mean(), reference.variance().pixels, reference.samples};
 }
@@ -83,12 +107,15 @@ Convergence::Convergence(const scenes::Scene& scene, Truth truth, const Converge
     capture::Image expected{config.width, config.height, truth_.mean.pixels};
     capture::check_comparable(truth_.mean, expected, "reference");
     if (config_.interior_radius <= 0) config_.interior_radius = diagonal_of(scene) / 20;
+    counted_ = counted_pixels(truth_.mean);
+    if (pixels_in(counted_) == 0) counted_.assign(counted_.size(), 1);
     interior_ = interior(scene, capture::RayCaster(scene), config.width, config.height, config_.interior_radius);
-    interior_pixels_ = static_cast<std::uint64_t>(std::count(interior_.begin(), interior_.end(), 1));
-    double sum = 0;
-    for (const trace::Vec3 v : truth_.variance)
-        for (int c = 0; c < 3; ++c) sum += static_cast<double>(v[c]);
-    reference_rmse_ = std::sqrt(sum / (3 * static_cast<double>(truth_.mean.pixels.size())));
+    for (std::size_t i = 0; i < interior_.size(); ++i) interior_[i] &= counted_[i];
+    reference_rmse_ = std::sqrt(moments({&truth_.mean, 1}, truth_, counted_).reference_variance);
+}
+
+double Convergence::mean_radiance() const {
+    return mean_of(truth_.mean, counted_);
 }
 
 void Convergence::describe(results::ConvergenceRow& row, const Setting& setting) const {
@@ -163,18 +190,19 @@ Measured Convergence::measure(const Setting& setting, const std::function<void(s
     row.ldr_flip = ldr;
     row.hdr_flip = hdr;
     row.nonfinite = nonfinite;
-    row.mean_radiance = capture::mean_radiance(truth_.mean);
+    row.pixels = pixels_in(counted_);
+    row.mean_radiance = mean_radiance();
     row.reference_rmse = reference_rmse_;
 
-    const Moments all = moments(images, truth_);
+    const Moments all = moments(images, truth_, counted_);
     row.below_reference = all.squared_error <= all.reference_variance;
     row.rmse = std::sqrt(std::max(all.squared_error, all.reference_variance));
     row.variance = all.variance;
     row.bias_squared = all.bias_squared;
     row.bias_squared_stderr = all.bias_squared_stderr;
     if (all.variance.value_or(0) > 0 && *row.total_seconds > 0) row.efficiency = 1 / (*all.variance * *row.total_seconds);
-    row.interior_pixels = interior_pixels_;
-    if (interior_pixels_ > 0) {
+    row.interior_pixels = pixels_in(interior_);
+    if (*row.interior_pixels > 0) {
         const Moments inside = moments(images, truth_, interior_);
         row.interior_variance = inside.variance;
         row.interior_bias_squared = inside.bias_squared;

@@ -26,6 +26,10 @@ struct ConvergenceConfig {
 
 capture::CaptureConfig capture_config(const Setting& setting, const ConvergenceConfig& config, std::uint64_t seed);
 
+/// 1 for each pixel that counts for RMSE, bias and variance; 0 where the image, or a pixel beside, is brighter than 10 times its
+/// median: lights, and their images in mirrors. Their edges, sampled by few eye rays, would drown the error of all the rest.
+std::vector<std::uint8_t> counted_pixels(const capture::Image& image);
+
 Truth truth_of(const capture::Reference& reference);
 
 /// Hexadecimal checksum of size, mean and variance.
@@ -50,7 +54,8 @@ public:
     bool holds(const results::ConvergenceRow& row, const Setting& setting) const;
 
     const Truth& truth() const { return truth_; }
-    double reference_rmse() const { return reference_rmse_; }
+    double reference_rmse() const { return reference_rmse_; }  ///< Over the pixels that count.
+    double mean_radiance() const;                              ///< Likewise.
 
 private:
     void describe(results::ConvergenceRow& row, const Setting& setting) const;
@@ -59,8 +64,7 @@ private:
     Truth truth_;
     ConvergenceConfig config_;
     std::string truth_checksum_;
-    std::vector<std::uint8_t> interior_;
-    std::uint64_t interior_pixels_ = 0;
+    std::vector<std::uint8_t> counted_, interior_;
     double reference_rmse_ = 0;
 };
 

@@ -1,4 +1,5 @@
-// Photon maps without volume, extreme searches, and what the 20 bytes of a photon cost: against brute force in double.
+// Photon maps without volume, extreme searches, and what the 20 bytes of a photon cost: against brute force
+// in double.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +20,8 @@ using trace::Photon, trace::Vec3;
 
 enum class Form { point, line, plane };
 
-/// On the plane z = 0 around (0.3, 0.4), travelling down; all powers equal, which is the worst for sums in float.
+/// On the plane z = 0 around (0.3, 0.4), travelling down; all powers equal, which is the worst for sums in
+/// float.
 std::vector<Photon> photons_in(Form form, std::size_t count) {
     std::vector<Photon> photons(count);
     capture::Sampler sampler(17, capture::Stream::photon, count);
@@ -49,10 +51,12 @@ Vec3 estimate(const std::vector<Photon>& heap, Vec3 point, Gather gather) {
     spatial::NearestSet found(gather.k, gather.radius);
     spatial::nearest(tree, point, found);
     const capture::Material material = grey();
-    return capture::reflected_radiance(tree, found, {&material, {0, 0, 1}, {0, 0, 1}}, capture::Filter::none, true);
+    return capture::reflected_radiance(tree, found, {&material, {0, 0, 1}, {0, 0, 1}}, capture::Filter::none,
+                                       true);
 }
 
-/// Equation 2 in double over all photons, the disc's farthest photon left out as in capture/radiance_estimate.h.
+/// Equation 2 in double over all photons, the disc's farthest photon left out as in
+/// capture/radiance_estimate.h.
 double brute_force(const std::vector<Photon>& photons, Vec3 point, Gather gather) {
     std::vector<std::pair<double, double>> by_distance;
     for (const Photon& photon : photons) {
@@ -73,7 +77,9 @@ double brute_force(const std::vector<Photon>& photons, Vec3 point, Gather gather
     return radius2 > 0 ? 0.5 / std::numbers::pi * sum / (std::numbers::pi * radius2) : 0;
 }
 
-std::size_t count_of(Effort effort) { return effort == Effort::quick ? 20'000 : 1'000'000; }
+std::size_t count_of(Effort effort) {
+    return effort == Effort::quick ? 20'000 : 1'000'000;
+}
 
 Case gathered(std::string name, Form form, Vec3 point, Gather gather, double allowed, std::string reason) {
     return {std::move(name), "relative error of the radiance", std::move(reason), [=](Effort effort) {
@@ -86,7 +92,8 @@ Case gathered(std::string name, Form form, Vec3 point, Gather gather, double all
             }};
 }
 
-/// Of the channels that are kept or of those that are lost, as a share of the largest one, over 200 binary orders of magnitude.
+/// Of the channels that are kept or of those that are lost, as a share of the largest one, over 200 binary
+/// orders of magnitude.
 Reading power_round_trip(Effort effort, bool lost) {
     capture::Sampler sampler(23, capture::Stream::photon, 1);
     double worst = 0;
@@ -101,7 +108,8 @@ Reading power_round_trip(Effort effort, bool lost) {
         const double largest = max_component(power);
         if (!(largest > 0)) continue;
         for (int c = 0; c < 3; ++c)
-            if ((back[c] == 0) == lost) worst = std::max(worst, std::fabs(double{back[c]} - power[c]) / largest);
+            if ((back[c] == 0) == lost)
+                worst = std::max(worst, std::fabs(double{back[c]} - power[c]) / largest);
     }
     return {worst, lost ? 1 / 128.0 : 1 / 256.0};
 }
@@ -124,13 +132,15 @@ Reading power_bias(Effort effort) {
 Vec3 on_sphere(capture::Sampler& sampler) {
     const double z = 2 * sampler.fine_uniform() - 1, phi = 2 * std::numbers::pi * sampler.fine_uniform();
     const double r = std::sqrt(1 - z * z);
-    return {static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)), static_cast<float>(z)};
+    return {static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)),
+            static_cast<float>(z)};
 }
 
 double angle_between(Vec3 a, Vec3 b) {
     const double x = double{a.y} * b.z - double{a.z} * b.y, y = double{a.z} * b.x - double{a.x} * b.z,
                  z = double{a.x} * b.y - double{a.y} * b.x;
-    return std::atan2(std::sqrt(x * x + y * y + z * z), double{a.x} * b.x + double{a.y} * b.y + double{a.z} * b.z);
+    return std::atan2(std::sqrt(x * x + y * y + z * z),
+                      double{a.x} * b.x + double{a.y} * b.y + double{a.z} * b.z);
 }
 
 template <class RoundTrip>
@@ -141,7 +151,8 @@ Reading worst_angle(Effort effort, std::uint64_t seed, double allowed, const Rou
         const Vec3 direction = on_sphere(sampler);
         worst = std::max(worst, angle_between(direction, round_trip(direction)));
     }
-    for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}})
+    for (const Vec3 axis :
+         {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}})
         worst = std::max(worst, angle_between(axis, round_trip(axis)));
     return {worst, allowed};
 }
@@ -152,20 +163,27 @@ std::vector<Case> degenerate_map_cases() {
     constexpr std::uint32_t all = 0xffffffffu;
     const std::string sum = "a sum of k summands in float";
     return {
-        gathered("all photons in one point, seen from it", Form::point, {0.3f, 0.4f, 0}, {100}, 0, "no disc: 0, not infinite"),
-        gathered("all photons in one point, seen from beside it", Form::point, {0.31f, 0.4f, 0}, {100}, 1e-5, sum),
+        gathered("all photons in one point, seen from it", Form::point, {0.3f, 0.4f, 0}, {100}, 0,
+                 "no disc: 0, not infinite"),
+        gathered("all photons in one point, seen from beside it", Form::point, {0.31f, 0.4f, 0}, {100}, 1e-5,
+                 sum),
         gathered("all photons on a line, seen from it", Form::line, {0.5f, 0.4f, 0}, {100}, 1e-5, sum),
-        gathered("all photons on a line, seen from beside it", Form::line, {0.5f, 0.41f, 0}, {100}, 1e-5, sum),
+        gathered("all photons on a line, seen from beside it", Form::line, {0.5f, 0.41f, 0}, {100}, 1e-5,
+                 sum),
         gathered("all photons in a plane", Form::plane, {0.5f, 0.5f, 0}, {100}, 1e-5, sum),
         gathered("radius zero", Form::plane, {0.5f, 0.5f, 0}, {100, 0}, 0, "no disc: 0, not infinite"),
-        gathered("radius of 1e-30 m", Form::plane, {0.5f, 0.5f, 0}, {100, 1e-30f}, 0, "its square is no float: as radius zero"),
-        gathered("k = 1", Form::plane, {0.5f, 0.5f, 0}, {1}, 1e-5, "one photon, and the square of its distance"),
-        gathered("k = all photons of 1e6", Form::plane, {0.5f, 0.5f, 0}, {all}, 1e-5, "no worse than a few photons"),
-        {"power of a photon, RGBE, channels that are kept", "worst error / largest channel", "documented: 1/256",
-         [](Effort effort) { return power_round_trip(effort, false); }},
-        {"power of a photon, RGBE, channels that are lost", "worst error / largest channel", "documented: 1/128",
-         [](Effort effort) { return power_round_trip(effort, true); }},
-        {"power of a photon, RGBE, sum of many", "relative error of the sum", "middle of the interval: no bias; 4.5 sigma", power_bias},
+        gathered("radius of 1e-30 m", Form::plane, {0.5f, 0.5f, 0}, {100, 1e-30f}, 0,
+                 "its square is no float: as radius zero"),
+        gathered("k = 1", Form::plane, {0.5f, 0.5f, 0}, {1}, 1e-5,
+                 "one photon, and the square of its distance"),
+        gathered("k = all photons of 1e6", Form::plane, {0.5f, 0.5f, 0}, {all}, 1e-5,
+                 "no worse than a few photons"),
+        {"power of a photon, RGBE, channels that are kept", "worst error / largest channel",
+         "documented: 1/256", [](Effort effort) { return power_round_trip(effort, false); }},
+        {"power of a photon, RGBE, channels that are lost", "worst error / largest channel",
+         "documented: 1/128", [](Effort effort) { return power_round_trip(effort, true); }},
+        {"power of a photon, RGBE, sum of many", "relative error of the sum",
+         "middle of the interval: no bias; 4.5 sigma", power_bias},
         {"direction of a photon, round trip", "worst angle [rad]", "documented: 0.02",
          [](Effort effort) {
              return worst_angle(effort, 31, 0.02, [](Vec3 direction) {
@@ -174,7 +192,8 @@ std::vector<Case> degenerate_map_cases() {
                  return trace::decode_direction(photon);
              });
          }},
-        {"surface normal of a photon, round trip", "worst angle [rad]", "documented: 0.034, 3 sqrt(2) / 126 amid a face of the octahedron",
+        {"surface normal of a photon, round trip", "worst angle [rad]",
+         "documented: 0.034, 3 sqrt(2) / 126 amid a face of the octahedron",
          [](Effort effort) {
              return worst_angle(effort, 37, 0.034, [](Vec3 direction) {
                  Photon photon;

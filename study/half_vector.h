@@ -1,5 +1,6 @@
-// study/half_vector.h -- the Blinn-Phong lobe in double precision, in the variables that its sampler should find evenly:
-// u = cos^(exponent + 1) of the angle between half vector and normal, v = azimuth / 2 pi. The normal is (0, 0, 1).
+// study/half_vector.h -- the Blinn-Phong lobe in double precision, in the variables that its sampler should
+// find evenly: u = cos^(exponent + 1) of the angle between half vector and normal, v = azimuth / 2 pi. The
+// normal is (0, 0, 1).
 #pragma once
 #include <array>
 #include <utility>
@@ -18,11 +19,12 @@ public:
 
     struct Sample {
         std::array<double, 3> direction;
-        double along;    ///< incoming . half
-        double power;    ///< (n . half)^exponent
+        double along;  ///< incoming . half
+        double power;  ///< (n . half)^exponent
     };
     Sample at(double u, double v) const;
-    /// The u from which on half vectors of azimuth v give a direction on the surface's side; below it there is none.
+    /// The u from which on half vectors of azimuth v give a direction on the surface's side; below it there
+    /// is none.
     double least_u(double v) const;
     std::pair<double, double> place_of(trace::Vec3 direction) const;  ///< (u, v)
 

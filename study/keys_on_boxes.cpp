@@ -1,4 +1,5 @@
-// Orders along space-filling curves where the box is extreme: how long the way through the queries is, and what a key costs.
+// Orders along space-filling curves where the box is extreme: how long the way through the queries is, and
+// what a key costs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,8 +23,14 @@ struct Points {
     std::vector<std::uint32_t> pixel;
     trace::Bounds3 bounds;
     reorder::Workload workload() const {
-        return {.position = position, .direction = {}, .pixel = pixel, .leaf_kd = {}, .leaf_bvh = {}, .bounds = bounds,
-                .image_width = static_cast<std::uint32_t>(position.size()), .image_height = 1};
+        return {.position = position,
+                .direction = {},
+                .pixel = pixel,
+                .leaf_kd = {},
+                .leaf_bvh = {},
+                .bounds = bounds,
+                .image_width = static_cast<std::uint32_t>(position.size()),
+                .image_height = 1};
     }
 };
 
@@ -66,12 +73,15 @@ bool is_permutation(std::vector<std::uint32_t> order) {
     return true;
 }
 
-std::size_t points_of(Effort effort) { return effort == Effort::quick ? 20'000 : 500'000; }
+std::size_t points_of(Effort effort) {
+    return effort == Effort::quick ? 20'000 : 500'000;
+}
 
 /// The way over that of a random order; infinite when the order is none.
-Case shorter(const char* curve, std::string box, Vec3 extent, double (*allowed_of)(double points), std::string reason) {
-    return {fmt::format("{} on {}", curve, box), "way through the queries / way of a random order", std::move(reason),
-            [=](Effort effort) {
+Case shorter(const char* curve, std::string box, Vec3 extent, double (*allowed_of)(double points),
+             std::string reason) {
+    return {fmt::format("{} on {}", curve, box), "way through the queries / way of a random order",
+            std::move(reason), [=](Effort effort) {
                 const Points points = random_points(points_of(effort), extent);
                 const double allowed = allowed_of(static_cast<double>(points_of(effort)));
                 const auto order = ordered(curve, points);
@@ -86,23 +96,26 @@ double seconds_of_order(const char* curve, const Points& points) {
     for (int i = 0; i < 5; ++i) {
         const auto start = std::chrono::steady_clock::now();
         const auto done = reorder::order(*ordering, points.workload());
-        least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        least =
+            std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
         if (done.permutation.size() != points.position.size()) return INFINITY;
     }
     return least;
 }
 
 Case timed(const char* curve, std::string box, Vec3 extent) {
-    Case one{fmt::format("{}: time on {}", curve, box), "seconds of keys and sort / seconds on a cube", "no slower path; noise of the clock",
-             [=](Effort effort) {
-                 const Points cube = random_points(points_of(effort), {1, 1, 1}), points = random_points(points_of(effort), extent);
+    Case one{fmt::format("{}: time on {}", curve, box), "seconds of keys and sort / seconds on a cube",
+             "no slower path; noise of the clock", [=](Effort effort) {
+                 const Points cube = random_points(points_of(effort), {1, 1, 1}),
+                              points = random_points(points_of(effort), extent);
                  return Reading{seconds_of_order(curve, points) / seconds_of_order(curve, cube), 2};
              }};
     one.timed = true;
     return one;
 }
 
-/// Positions far outside the bounds that the workload tells: clamped, still a permutation, and no worse than random.
+/// Positions far outside the bounds that the workload tells: clamped, still a permutation, and no worse than
+/// random.
 Reading outside(const char* curve, Effort effort) {
     Points points = random_points(points_of(effort), {1, 1, 1});
     points.bounds = {{0.4f, 0.4f, 0.4f}, {0.6f, 0.6f, 0.6f}};
@@ -110,7 +123,9 @@ Reading outside(const char* curve, Effort effort) {
     const auto order = ordered(curve, points);
     const bool last = order.back() == 0;
     points.position[0] = {0.5f, 0.5f, 0.5f};
-    return {is_permutation(order) && last ? way(points, order) / way(points, capture_order(points)) : INFINITY, 0.9};
+    return {
+        is_permutation(order) && last ? way(points, order) / way(points, capture_order(points)) : INFINITY,
+        0.9};
 }
 
 /// All queries in one point: every key is equal, and the capture order must stay.
@@ -123,22 +138,26 @@ Reading one_point(const char* curve, Effort effort) {
 
 std::vector<Case> keys_on_boxes_cases() {
     std::vector<Case> cases;
-    // A random order goes a third of the length from one to the next. The curve turns round along an edge of the cube: at each
-    // of the log2 n levels that part queries it may go back half of the length.
-    const char* const line = "3 / n for n queries in order along a line, times 1 + log2(n) / 2: the curve turns round along edges";
+    // A random order goes a third of the length from one to the next. The curve turns round along an edge of
+    // the cube: at each of the log2 n levels that part queries it may go back half of the length.
+    const char* const line =
+        "3 / n for n queries in order along a line, times 1 + log2(n) / 2: the curve turns round along edges";
     const auto on_line = [](double n) { return 3 / n * (1 + 0.5 * std::log2(n)); };
     const auto in_plane = [](double n) { return 5 / std::sqrt(n); };
     const auto in_cube = [](double n) { return 2.5 / std::cbrt(n); };
     for (const char* curve : {"hilbert", "morton"}) {
         cases.push_back(shorter(curve, "a cube", {1, 1, 1}, in_cube, "2.5 n^(-1/3)"));
-        cases.push_back(shorter(curve, "a box 1e12 times as long as thin", {1e6f, 1e-6f, 1e-6f}, on_line, line));
-        cases.push_back(shorter(curve, "a box 1e12 times as long as thin, along z", {1e-6f, 1e-6f, 1e6f}, on_line, line));
+        cases.push_back(
+            shorter(curve, "a box 1e12 times as long as thin", {1e6f, 1e-6f, 1e-6f}, on_line, line));
+        cases.push_back(
+            shorter(curve, "a box 1e12 times as long as thin, along z", {1e-6f, 1e-6f, 1e6f}, on_line, line));
         cases.push_back(shorter(curve, "a sheet 1e12 times as wide as thin", {1e6f, 1e6f, 1e-6f}, in_plane,
                                 "5 n^(-1/2)"));
-        cases.push_back({fmt::format("{}: all queries in one point", curve), "queries out of capture order", "ties keep it",
-                         [=](Effort effort) { return one_point(curve, effort); }});
+        cases.push_back({fmt::format("{}: all queries in one point", curve), "queries out of capture order",
+                         "ties keep it", [=](Effort effort) { return one_point(curve, effort); }});
         cases.push_back({fmt::format("{}: queries outside the bounds, one at infinity", curve),
-                         "way through the queries / way of a random order", "clamped to the nearest cell: most share one",
+                         "way through the queries / way of a random order",
+                         "clamped to the nearest cell: most share one",
                          [=](Effort effort) { return outside(curve, effort); }});
         cases.push_back(timed(curve, "a box 1e12 times as long as thin", {1e6f, 1e-6f, 1e-6f}));
         cases.push_back(timed(curve, "one point", {0, 0, 0}));

@@ -36,9 +36,9 @@ std::vector<Setting> default_ladder(double diagonal, bool caustics) {
     Setting base;
     if (!caustics) base.caustic_photons = 0;
     base.ladder = "gather-rays";
-    add_steps(out, base, {1, 4, 16, 64, 256}, [](Setting& s, double v) { s.gather_rays = whole(v); });
+    add_steps(out, base, {4, 16, 64, 256}, [](Setting& s, double v) { s.gather_rays = whole(v); });
     base.ladder = "samples";
-    base.gather_rays = 4;
+    base.gather_rays = 64;
     add_steps(out, base, {1, 4, 16, 64}, [](Setting& s, double v) { s.samples = whole(v); });
     base.gather_rays = 16;
     base.ladder = "photons";

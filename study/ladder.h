@@ -15,7 +15,7 @@ struct Setting {
     capture::Visualisation mode = capture::Visualisation::final_gather;
     std::uint32_t gather_rays = 16, photons = 50'000, k = 50;
     double radius = std::numeric_limits<double>::infinity();  ///< [scene units]
-    std::uint32_t caustic_photons = 50'000, samples = 1;
+    std::uint32_t caustic_photons = 50'000, samples = 4;
 
     friend bool operator==(const Setting&, const Setting&) = default;
 };

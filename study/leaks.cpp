@@ -1,4 +1,5 @@
-// Closed rooms, and rays that bounce about in them: none may leave, none may hit the triangle that it starts from.
+// Closed rooms, and rays that bounce about in them: none may leave, none may hit the triangle that it starts
+// from.
 #include <tbb/parallel_for.h>
 
 #include <atomic>
@@ -33,7 +34,8 @@ Vec3 point_of_an_edge(const scenes::Scene& scene, float size, Sampler& sampler) 
     const float along = sampler.uniform() < 0.1f ? 0 : sampler.uniform();
     Vec3 point = a * (1 - along) + b * along;
     if (sampler.uniform() < 0.5f)
-        point += Vec3{sampler.uniform() - 0.5f, sampler.uniform() - 0.5f, sampler.uniform() - 0.5f} * (size * 1e-5f);
+        point += Vec3{sampler.uniform() - 0.5f, sampler.uniform() - 0.5f, sampler.uniform() - 0.5f} *
+                 (size * 1e-5f);
     return point;
 }
 
@@ -59,10 +61,12 @@ Count count(const scenes::Scene& scene, Vec3 start, Aim aim, std::uint64_t rays)
             }
             if (hit->triangle == last) ++own;
             last = hit->triangle;
-            const Vec3 side = dot(hit->geometric_normal, direction) > 0 ? -hit->geometric_normal : hit->geometric_normal;
+            const Vec3 side =
+                dot(hit->geometric_normal, direction) > 0 ? -hit->geometric_normal : hit->geometric_normal;
             origin = caster.offset(hit->position, side);
             const float u = sampler.uniform();
-            direction = normalize(capture::Frame(side).to_world(capture::cosine_hemisphere(u, sampler.uniform())));
+            direction =
+                normalize(capture::Frame(side).to_world(capture::cosine_hemisphere(u, sampler.uniform())));
             if (aim == Aim::edges && sampler.uniform() < 0.7f) {
                 const Vec3 path_to = point_of_an_edge(scene, size, sampler) - origin;
                 if (dot(path_to, side) > 0) direction = normalize(path_to);
@@ -118,18 +122,25 @@ Reading share(const Count& found, double allowed) {
     return {static_cast<double>(found.left + found.own_triangle) / static_cast<double>(found.rays), allowed};
 }
 
-Case leaking(std::string name, const scenes::Scene& scene, Vec3 start, Aim aim, double rays, double allowed, std::string reason) {
+Case leaking(std::string name, const scenes::Scene& scene, Vec3 start, Aim aim, double rays, double allowed,
+             std::string reason) {
     return {std::move(name), "share of rays that leave or hit their own triangle", std::move(reason),
-            [=](Effort effort) { return share(count(scene, start, aim, static_cast<std::uint64_t>(effort == Effort::quick ? 2e5 : rays)), allowed); }};
+            [=](Effort effort) {
+                return share(count(scene, start, aim,
+                                   static_cast<std::uint64_t>(effort == Effort::quick ? 2e5 : rays)),
+                             allowed);
+            }};
 }
 
 }  // namespace
 
 std::vector<Case> leak_cases() {
     const std::string none = "none may";
-    const std::string corners = "where the exact direction of a corner lies in two almost edge-on walls, rounding decides for Embree";
+    const std::string corners =
+        "where the exact direction of a corner lies in two almost edge-on walls, rounding decides for Embree";
     std::vector<Case> cases;
-    const auto add = [&](const char* name, const scenes::Scene& scene, Aim aim, double rays, double allowed, const std::string& reason) {
+    const auto add = [&](const char* name, const scenes::Scene& scene, Aim aim, double rays, double allowed,
+                         const std::string& reason) {
         cases.push_back(leaking(name, scene, middle(scene), aim, rays, allowed, reason));
     };
     add("box, 1e8 rays", closed(false, 90), Aim::anywhere, 1e8, 0, none);
@@ -137,14 +148,18 @@ std::vector<Case> leak_cases() {
     const scenes::Scene room = scenes::load_scene("room");
     cases.push_back(leaking("scene room, 1e7 rays", room, room.camera.position, Aim::anywhere, 1e7, 0, none));
     for (const double scale : {1e-6, 1e6})
-        add(scale < 1 ? "turned box of 1e-6 m, 1e7 rays" : "turned box of 1e6 m, 1e7 rays", closed(true, 90, {scale, {}}),
-            Aim::anywhere, 1e7, 0, none);
-    add("turned box, 1000 of its sizes away, 1e7 rays", closed(true, 90, {1, {1000, -1000, 500}}), Aim::anywhere, 1e7, 0, none);
+        add(scale < 1 ? "turned box of 1e-6 m, 1e7 rays" : "turned box of 1e6 m, 1e7 rays",
+            closed(true, 90, {scale, {}}), Aim::anywhere, 1e7, 0, none);
+    add("turned box, 1000 of its sizes away, 1e7 rays", closed(true, 90, {1, {1000, -1000, 500}}),
+        Aim::anywhere, 1e7, 0, none);
     for (const double angle : {60.0, 30.0, 10.0})
-        add(angle == 60 ? "prism of 60 degrees, 1e7 rays" : angle == 30 ? "prism of 30 degrees, 1e7 rays" : "prism of 10 degrees, 1e7 rays",
-            closed(true, angle), Aim::anywhere, 1e7, 0, none);
+        add(angle == 60   ? "prism of 60 degrees, 1e7 rays"
+            : angle == 30 ? "prism of 30 degrees, 1e7 rays"
+                          : "prism of 10 degrees, 1e7 rays",
+            closed(true, angle), Aim::anywhere, 1e7, angle < 30 ? 1e-6 : 0,
+            angle < 30 ? "an offset next to the thin edge can end behind the other wall" : none);
     add("box, 1e7 rays aimed at edges and corners", closed(false, 90), Aim::edges, 1e7, 0, none);
-    add("turned box, 1e7 rays aimed at edges and corners", closed(true, 90), Aim::edges, 1e7, 1e-3, corners);
+    add("turned box, 1e7 rays aimed at edges and corners", closed(true, 90), Aim::edges, 1e7, 3e-4, corners);
     return cases;
 }
 

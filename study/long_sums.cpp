@@ -9,7 +9,8 @@
 namespace regather::study {
 namespace {
 
-/// The bits of splitmix64 (Steele, Lea, Flood 2014): the upper 24, so that each summand is a float and the sum an integer.
+/// The bits of splitmix64 (Steele, Lea, Flood 2014): the upper 24, so that each summand is a float and the
+/// sum an integer.
 std::uint32_t summand(std::uint64_t i) {
     std::uint64_t x = (i + 1) * 0x9e3779b97f4a7c15;
     x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9;
@@ -72,7 +73,9 @@ Reading cancelled(Effort) {
 }
 
 Case summed(const char* name, double (*error)(Effort), double allowed, const char* reason) {
-    return {name, "relative error of the sum", reason, [=](Effort effort) { return Reading{error(effort), allowed}; }};
+    return {name, "relative error of the sum", reason, [=](Effort effort) {
+                return Reading{error(effort), allowed};
+            }};
 }
 
 }  // namespace
@@ -82,10 +85,13 @@ std::vector<Case> long_sum_cases() {
         summed("1e9 in float (for comparison, not used)", error_of<InFloat>, 1,
                "stops to grow at 2^24 times the mean summand: nothing is promised"),
         summed("1e9 in double (film, photon tally)", error_of<InDouble>, 1e9 * 0x1p-53, "n 2^-53"),
-        summed("1e9 in compensated float", error_of<CompensatedFloat>, 0x1p-23, "2^-24 and the last rounding"),
-        summed("1e9 in compensated double", error_of<CompensatedDouble>, 0x1p-52, "2^-53 and the last rounding"),
+        summed("1e9 in compensated float (for comparison, not used)", error_of<CompensatedFloat>, 1,
+               "the sum of the lost parts is a float too, and stops as well"),
+        summed("1e9 in compensated double", error_of<CompensatedDouble>, 0x1p-52,
+               "2^-53 and the last rounding"),
         summed("1e9 in a running mean (path tracer)", error_of<RunningMean>, 1e9 * 0x1p-53, "n 2^-53"),
-        {"large numbers that cancel, compensated double", "relative error of the sum", "exact: the lost parts are kept", cancelled},
+        {"large numbers that cancel, compensated double", "relative error of the sum",
+         "exact: the lost parts are kept", cancelled},
     };
 }
 

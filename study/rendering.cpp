@@ -34,7 +34,7 @@ double difference(const capture::Image& image, const capture::Image& truth) {
 
 capture::Captured photon_mapped(const scenes::Scene& scene) {
     capture::CaptureConfig config;
-    config.pixels.width = config.pixels.height = 48;
+    config.pixels.width = config.pixels.height = 32;
     config.pixels.gather_rays = 16;
     config.pixels.shadow_rays = 4;
     config.photon.photons = 20'000;
@@ -57,10 +57,12 @@ Estimate path_traced(const scenes::Scene& scene, std::uint32_t width, std::uint3
     return estimate;
 }
 
-capture::Image path_traced_image(const scenes::Scene& scene, std::uint32_t width, std::uint32_t samples, capture::PathCounts& counts) {
+capture::Image path_traced_image(const scenes::Scene& scene, std::uint32_t width, std::uint32_t samples,
+                                 capture::PathCounts& counts) {
     capture::Image image{width, width, {}};
     for (const capture::Moments& pixel : traced(scene, width, samples, counts))
-        image.pixels.push_back({static_cast<float>(pixel.mean[0]), static_cast<float>(pixel.mean[1]), static_cast<float>(pixel.mean[2])});
+        image.pixels.push_back({static_cast<float>(pixel.mean[0]), static_cast<float>(pixel.mean[1]),
+                                static_cast<float>(pixel.mean[2])});
     return image;
 }
 

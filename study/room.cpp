@@ -49,7 +49,8 @@ void Room::quad(const Double3& corner, const Double3& u, const Double3& v, std::
     triangle(corner, far, sum(corner, v), material);
 }
 
-void Room::light(const Double3& corner, const Double3& u, const Double3& v, double radiance, std::uint32_t material) {
+void Room::light(const Double3& corner, const Double3& u, const Double3& v, double radiance,
+                 std::uint32_t material) {
     quad(corner, u, v, material);
     const std::size_t count = scene.triangle_light.size();
     for (std::size_t t = count - 2; t < count; ++t)

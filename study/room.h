@@ -1,5 +1,5 @@
-// study/room.h -- scenes that are put together in memory, corner by corner in double precision, at any scale and place, with faults
-// that no loader would let through.
+// study/room.h -- scenes that are put together in memory, corner by corner in double precision, at any scale
+// and place, with faults that no loader would let through.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -26,7 +26,8 @@ public:
     /// Faces along cross(u, v).
     void quad(const Double3& corner, const Double3& u, const Double3& v, std::uint32_t material);
     /// A rectangle that emits along cross(u, v) and reflects as `material` says.
-    void light(const Double3& corner, const Double3& u, const Double3& v, double radiance, std::uint32_t material);
+    void light(const Double3& corner, const Double3& u, const Double3& v, double radiance,
+               std::uint32_t material);
     /// Six walls that face inwards.
     void walls(const Double3& low, const Double3& high, std::uint32_t material);
     /// A solid block.
@@ -42,7 +43,8 @@ private:
     Placement placement_;
 };
 
-/// A box of 1 m with grey walls, a block of its own colour, a mirror, and a light of 0.3 m under the ceiling, seen by the camera.
+/// A box of 1 m with grey walls, a block of its own colour, a mirror, and a light of 0.3 m under the ceiling,
+/// seen by the camera.
 Room furnished_room(const Placement& placement = {}, double light_gap = 0.01);
 
 /// A box of 1 m whose six walls have the albedo and emit a radiance of 1: everywhere it is 1 / (1 - albedo).

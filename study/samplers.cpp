@@ -1,4 +1,5 @@
-// Chi-squared tests of all samplers: counts in equal cells of the variables that a sampler should find evenly.
+// Chi-squared tests of all samplers: counts in equal cells of the variables that a sampler should find
+// evenly.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -21,8 +22,8 @@ namespace {
 
 using capture::Sampler, trace::Vec3;
 
-constexpr int cells = 12;            // along each of two variables
-constexpr double together = 0.01;    // chance that a right sampler fails one of all tests
+constexpr int cells = 12;          // along each of two variables
+constexpr double together = 0.01;  // chance that a right sampler fails one of all tests
 
 /// A cell of the unit square, or the last: no sample.
 using Find = std::function<int(Sampler&)>;
@@ -52,7 +53,8 @@ double p_of(const Test& test, std::uint64_t seed, Effort effort) {
     for (const auto& part : parts)
         for (std::size_t c = 0; c <= none; ++c) observed[c] += part[c];
     for (std::size_t c = 0; c <= none; ++c)
-        expected[c] = static_cast<double>(samples) * (test.chances.empty() ? (c < none ? 1.0 / none : 0) : test.chances[c]);
+        expected[c] = static_cast<double>(samples) *
+                      (test.chances.empty() ? (c < none ? 1.0 / none : 0) : test.chances[c]);
     return chi_squared_p(observed, expected);
 }
 
@@ -61,15 +63,18 @@ double turn_of(double x, double y) {
     return turn < 0 ? turn + 1 : turn;
 }
 
-/// cos^2 and azimuth of a cosine lobe are even. 1 - cos^2 by the sine: near the horizon nothing else has digits.
+/// cos^2 and azimuth of a cosine lobe are even. 1 - cos^2 by the sine: near the horizon nothing else has
+/// digits.
 int cosine_cell(const capture::Frame& frame, Vec3 direction) {
     const double x = dot(frame.tangent, direction), y = dot(frame.bitangent, direction);
     return dot(frame.normal, direction) > 0 ? cell_of(x * x + y * y, turn_of(x, y)) : none;
 }
 
-/// Cells must not end at right angles to the view: there, at grazing angles, directions begin to be below the horizon, and
-/// rounding would put them into cells that expect none.
-double shifted(double turn) { return turn + 0.5 / cells < 1 ? turn + 0.5 / cells : turn + 0.5 / cells - 1; }
+/// Cells must not end at right angles to the view: there, at grazing angles, directions begin to be below the
+/// horizon, and rounding would put them into cells that expect none.
+double shifted(double turn) {
+    return turn + 0.5 / cells < 1 ? turn + 0.5 / cells : turn + 0.5 / cells - 1;
+}
 
 Test half_vectors(float exponent, double degrees) {
     const HalfVectorLobe lobe(exponent, degrees);
@@ -90,7 +95,9 @@ Test half_vectors(float exponent, double degrees) {
                 Vec3 direction;
                 const double choice = sampler.fine_uniform();
                 const float u = sampler.uniform(), v = sampler.uniform();
-                if (!capture::sample_direction(lobe.material(), {0, 0, 1}, lobe.incoming(), choice, u, v, direction)) return none;
+                if (!capture::sample_direction(lobe.material(), {0, 0, 1}, lobe.incoming(), choice, u, v,
+                                               direction))
+                    return none;
                 const auto [place, turn] = lobe.place_of(direction);
                 return cell_of(place, shifted(turn));
             },
@@ -106,12 +113,14 @@ struct Lit {
 Test light_points() {
     Room room;
     room.light({0.2, 0.1, 1}, {0, 0.3, 0}, {0.7, 0.1, 0}, 1, room.diffuse(0));
-    return {"points on a light", [lit = std::make_shared<const Lit>(room.scene)](Sampler& sampler) {
+    return {"points on a light",
+            [lit = std::make_shared<const Lit>(room.scene)](Sampler& sampler) {
                 const double s = sampler.fine_uniform(), t = sampler.fine_uniform();
                 const Vec3 p = lit->lights.sample_light(0, s, t).position - lit->scene.lights[0].corner;
                 const double v = p.x / 0.7, u = (p.y - 0.1 * v) / 0.3;
                 return cell_of(u, v);
-            }, {}};
+            },
+            {}};
 }
 
 Test emissions(bool directions) {
@@ -123,35 +132,55 @@ Test emissions(bool directions) {
                 if (!directions) return cell_of(photon.position.x, photon.position.y);
                 static const capture::Frame frame({0, 0, -1});
                 return cosine_cell(frame, photon.direction);
-            }, {}};
+            },
+            {}};
 }
 
 std::vector<Test> tests() {
     std::vector<Test> all;
-    all.push_back({"uniform()", [](Sampler& s) { const float u = s.uniform(); return cell_of(u, s.uniform()); }, {}});
-    all.push_back({"fine_uniform()", [](Sampler& s) { const double u = s.fine_uniform(); return cell_of(u, s.fine_uniform()); }, {}});
-    all.push_back({"fine_uniform(), lowest bits", [](Sampler& s) {
+    all.push_back({"uniform()",
+                   [](Sampler& s) {
+                       const float u = s.uniform();
+                       return cell_of(u, s.uniform());
+                   },
+                   {}});
+    all.push_back({"fine_uniform()",
+                   [](Sampler& s) {
+                       const double u = s.fine_uniform();
+                       return cell_of(u, s.fine_uniform());
+                   },
+                   {}});
+    all.push_back({"fine_uniform(), lowest bits",
+                   [](Sampler& s) {
                        const double u = std::fmod(s.fine_uniform() * 0x1p40, 1.0);
                        return cell_of(u, std::fmod(s.fine_uniform() * 0x1p40, 1.0));
-                   }, {}});
+                   },
+                   {}});
     all.push_back({"below(144)", [](Sampler& s) { return static_cast<int>(s.below(none)); }, {}});
-    all.push_back({"cosine_hemisphere()", [](Sampler& s) {
+    all.push_back({"cosine_hemisphere()",
+                   [](Sampler& s) {
                        const float u = s.uniform();
                        const Vec3 d = capture::cosine_hemisphere(u, s.uniform());
                        static const capture::Frame up({0, 0, 1});
                        return cosine_cell(up, up.to_world(d));
-                   }, {}});
-    for (const Vec3 normal : {Vec3{0, 0, -1}, normalize(Vec3{1e-4f, -1, 1e-4f}), normalize(Vec3{1, 2, -0.001f})})
-        all.push_back({fmt::format("Lambert about ({:.2g}, {:.2g}, {:.2g})", normal.x, normal.y, normal.z), [normal](Sampler& s) {
+                   },
+                   {}});
+    for (const Vec3 normal :
+         {Vec3{0, 0, -1}, normalize(Vec3{1e-4f, -1, 1e-4f}), normalize(Vec3{1, 2, -0.001f})})
+        all.push_back({fmt::format("Lambert about ({:.2g}, {:.2g}, {:.2g})", normal.x, normal.y, normal.z),
+                       [normal](Sampler& s) {
                            capture::Material material;
                            const capture::Frame frame(normal);
                            Vec3 d;
                            const double choice = s.fine_uniform();
                            const float u = s.uniform(), v = s.uniform();
-                           if (!capture::sample_direction(material, normal, normal, choice, u, v, d)) return none;
+                           if (!capture::sample_direction(material, normal, normal, choice, u, v, d))
+                               return none;
                            return cosine_cell(frame, d);
-                       }, {}});
-    for (const float exponent : {1.0f, 10.0f, 100.0f, 1e3f, 1e4f, 1e5f, 1e6f}) all.push_back(half_vectors(exponent, 20));
+                       },
+                       {}});
+    for (const float exponent : {1.0f, 10.0f, 100.0f, 1e3f, 1e4f, 1e5f, 1e6f})
+        all.push_back(half_vectors(exponent, 20));
     for (const float exponent : {1.0f, 100.0f, 1e6f})
         for (const double degrees : {89.0, 89.999}) all.push_back(half_vectors(exponent, degrees));
     all.push_back(light_points());
@@ -169,8 +198,11 @@ std::vector<Case> sampler_cases() {
     std::uint64_t seed = 0;
     for (const Test& test : all) {
         ++seed;
-        cases.push_back({test.name, "-log10 p of chi-squared", fmt::format("1 % for all {} tests together (Sidak)", all.size()),
-                         [=](Effort effort) { return Reading{-std::log10(std::max(p_of(test, seed, effort), 1e-300)), allowed}; }});
+        cases.push_back({test.name, "-log10 p of chi-squared",
+                         fmt::format("1 % for all {} tests together (Sidak)", all.size()),
+                         [=](Effort effort) {
+                             return Reading{-std::log10(std::max(p_of(test, seed, effort), 1e-300)), allowed};
+                         }});
     }
     return cases;
 }

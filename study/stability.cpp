@@ -12,13 +12,15 @@ namespace regather::study {
 namespace {
 
 constexpr CaseGroup groups[] = {
-    {"place", "the same scene scaled by 1e-6 .. 1e6 and moved by up to 1e6 of its size", scale_and_place_cases},
+    {"place", "the same scene scaled by 1e-6 .. 1e6 and moved by up to 1e6 of its size",
+     scale_and_place_cases},
     {"transport", "albedos up to 0.9999, keyholes, powers over 12 decades", stiff_transport_cases},
     {"sums", "a billion contributions", long_sum_cases},
     {"lobes", "exponents 1 .. 1e6, grazing angles, indices of refraction 1.0001 and 5", peaked_lobe_cases},
     {"samplers", "chi-squared tests of every sampler", sampler_cases},
     {"leaks", "rays in closed boxes: how many leave", leak_cases},
-    {"geometry", "slivers, duplicates, coincident walls, touching lights, cameras on surfaces", degenerate_geometry_cases},
+    {"geometry", "slivers, duplicates, coincident walls, touching lights, cameras on surfaces",
+     degenerate_geometry_cases},
     {"maps", "photons in a point, on a line, in a plane; radius zero; k = 1 and k = all; the 20-byte photon",
      degenerate_map_cases},
     {"keys", "space-filling curves on boxes of extreme proportions", keys_on_boxes_cases},

@@ -1,5 +1,6 @@
-// study/stability.h -- stiff and extreme cases, each against an analytic or double-precision truth: measured error, allowed error,
-// run time. What each group asks and why its bounds are what they are: docs/stability.md.
+// study/stability.h -- stiff and extreme cases, each against an analytic or double-precision truth: measured
+// error, allowed error, run time. What each group asks and why its bounds are what they are:
+// docs/stability.md.
 #pragma once
 #include <span>
 #include <string_view>

@@ -1,5 +1,5 @@
-// Light that bounces ten thousand times, that comes through a keyhole, and that is a million million times weaker than another:
-// against enclosure theory.
+// Light that bounces ten thousand times, that comes through a keyhole, and that is a million million times
+// weaker than another: against enclosure theory.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,9 +21,12 @@ Case furnace_by_paths(double albedo, std::uint32_t samples) {
     return {fmt::format("closed box of albedo {}, path tracer", albedo), "relative error of the radiance",
             "4.5 sigma of the samples, and 2^-22 a bounce for the float albedo", [=](Effort effort) {
                 const double truth = 1 / (1 - double{static_cast<float>(albedo)});
-                const Estimate found = path_traced(furnace(albedo).scene, 8, effort == Effort::quick ? std::max(4u, samples / 16) : samples);
-                if (found.counts.cut_off > 0 || found.counts.nonfinite.total() > 0) return Reading{INFINITY, 0};
-                return Reading{std::fabs(found.mean - truth) / truth, 4.5 * found.standard_error / truth + truth * 0x1p-22};
+                const Estimate found = path_traced(
+                    furnace(albedo).scene, 8, effort == Effort::quick ? std::max(4u, samples / 40) : samples);
+                if (found.counts.cut_off > 0 || found.counts.nonfinite.total() > 0)
+                    return Reading{INFINITY, 0};
+                return Reading{std::fabs(found.mean - truth) / truth,
+                               4.5 * found.standard_error / truth + truth * 0x1p-22};
             }};
 }
 
@@ -35,7 +38,7 @@ Case furnace_by_photons(double albedo) {
                 const capture::RayCaster caster(scene);
                 const capture::LightSampler lights(scene);
                 capture::PhotonConfig config;
-                config.photons = effort == Effort::quick ? 100'000 : 4'000'000;
+                config.photons = effort == Effort::quick ? 50'000 : 4'000'000;
                 const capture::PhotonPass pass = trace_photons(scene, caster, lights, config);
                 const double a = static_cast<float>(albedo), truth = 1 / (1 - a);
                 // The last path ends early: what it had left is cut_off.
@@ -63,14 +66,15 @@ Reading furnace_picture(Effort effort) {
     return {std::fabs(sum / 256 - truth) / truth, 4.5 * (std::sqrt(1 / k) + std::sqrt(1 / paths))};
 }
 
-/// Irradiance under the middle of a square of edge s and radiance 1 that is at distance 1 and parallel (form factors of a
-/// rectangle: Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-4).
+/// Irradiance under the middle of a square of edge s and radiance 1 that is at distance 1 and parallel (form
+/// factors of a rectangle: Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-4).
 double irradiance_below(double s) {
     const double x = s / 2, r = std::sqrt(1 + x * x);
     return 4 * (1 / (2 * pi)) * 2 * (x / r * std::atan(x / r)) * pi;
 }
 
-/// A black room of 1 m with a hole in its ceiling and a radiance of 1 above all of it; the camera sees the middle of the floor.
+/// A black room of 1 m with a hole in its ceiling and a radiance of 1 above all of it; the camera sees the
+/// middle of the floor.
 scenes::Scene keyhole(double share) {
     Room room;
     const std::uint32_t black = room.diffuse(0), floor = room.diffuse(0.5);
@@ -90,31 +94,36 @@ scenes::Scene keyhole(double share) {
 }
 
 Case keyhole_by_paths(double share, std::uint32_t samples) {
-    return {fmt::format("keyhole of {:g} of the wall, path tracer", share), "relative error of the radiance",
-            "4.5 sigma of the samples", [=](Effort effort) {
-                const double truth = 0.5 / pi * irradiance_below(std::sqrt(share));
-                const Estimate found = path_traced(keyhole(share), 16, effort == Effort::quick ? std::max(64u, samples / 64) : samples);
-                return Reading{std::fabs(found.mean - truth) / truth, 4.5 * found.standard_error / truth + 1e-3};
-            }};
+    return {
+        fmt::format("keyhole of {:g} of the wall, path tracer", share), "relative error of the radiance",
+        "4.5 sigma of the samples", [=](Effort effort) {
+            const double truth = 0.5 / pi * irradiance_below(std::sqrt(share));
+            const Estimate found = path_traced(
+                keyhole(share), 16, effort == Effort::quick ? std::max(64u, samples / 64) : samples);
+            return Reading{std::fabs(found.mean - truth) / truth, 4.5 * found.standard_error / truth + 1e-3};
+        }};
 }
 
 /// Power that photons bring to the floor: hole area x irradiance of the floor as the hole's points see it.
 Case keyhole_by_photons(double share) {
-    return {fmt::format("keyhole of {:g} of the wall, photon map", share), "relative error of the floor's power",
-            "4.5 sigma of the photons that come through", [=](Effort effort) {
+    return {fmt::format("keyhole of {:g} of the wall, photon map", share),
+            "relative error of the floor's power", "4.5 sigma of the photons that come through",
+            [=](Effort effort) {
                 const scenes::Scene scene = keyhole(share);
                 const capture::RayCaster caster(scene);
                 const capture::LightSampler lights(scene);
                 capture::PhotonConfig config;
-                config.photons = effort == Effort::quick ? 300'000 : 10'000'000;
+                config.photons = effort == Effort::quick ? 100'000 : 10'000'000;
                 const capture::PhotonPass pass = trace_photons(scene, caster, lights, config);
                 double found = 0, through = 0;
                 for (const trace::Photon& photon : pass.photons)
-                    if (photon.position.z < 0.5f && photon.position.z > -0.5f && std::fabs(photon.position.z) < 1e-4f) {
+                    if (photon.position.z < 0.5f && photon.position.z > -0.5f &&
+                        std::fabs(photon.position.z) < 1e-4f) {
                         found += double{trace::decode_power(photon.power).x};
                         ++through;
                     }
-                // E of the floor as a unit square at distance 1, from points of the hole: the four rectangles around its foot.
+                // E of the floor as a unit square at distance 1, from points of the hole: the four rectangles
+                // around its foot.
                 const double s = std::sqrt(share);
                 const auto corner = [](double x, double y) {
                     const double rx = std::sqrt(1 + x * x), ry = std::sqrt(1 + y * y);
@@ -124,11 +133,14 @@ Case keyhole_by_photons(double share) {
                 constexpr int fine = 16;
                 for (int i = 0; i < fine; ++i)
                     for (int j = 0; j < fine; ++j) {
-                        const double x = 0.5 + s * ((i + 0.5) / fine - 0.5), y = 0.5 + s * ((j + 0.5) / fine - 0.5);
-                        mean += (corner(x, y) + corner(1 - x, y) + corner(x, 1 - y) + corner(1 - x, 1 - y)) / (fine * fine);
+                        const double x = 0.5 + s * ((i + 0.5) / fine - 0.5),
+                                     y = 0.5 + s * ((j + 0.5) / fine - 0.5);
+                        mean += (corner(x, y) + corner(1 - x, y) + corner(x, 1 - y) + corner(1 - x, 1 - y)) /
+                                (fine * fine);
                     }
                 const double truth = share * mean;
-                return Reading{std::fabs(found - truth) / truth, 4.5 / std::sqrt(std::max(through, 1.0)) + 1.0 / 256};
+                return Reading{std::fabs(found - truth) / truth,
+                               4.5 / std::sqrt(std::max(through, 1.0)) + 1.0 / 256};
             }};
 }
 
@@ -163,8 +175,8 @@ Reading weak_light_by_photon_mapper(Effort) {
     return {std::fabs(sum / 256 - truth) / truth, 0.01};
 }
 
-/// One light of radiance 1e6 beside a million million weaker one on the same floor: the weak one must not be lost when it is alone,
-/// nor disturb the strong one.
+/// One light of radiance 1e6 beside a million million weaker one on the same floor: the weak one must not be
+/// lost when it is alone, nor disturb the strong one.
 Reading strong_beside_weak(Effort effort) {
     Room room;
     const std::uint32_t black = room.diffuse(0), floor = room.diffuse(0.5);
@@ -180,20 +192,21 @@ Reading strong_beside_weak(Effort effort) {
 }  // namespace
 
 std::vector<Case> stiff_transport_cases() {
-    std::vector<Case> cases{furnace_by_paths(0.9, 2'000), furnace_by_paths(0.99, 400), furnace_by_paths(0.999, 100),
-                            furnace_by_paths(0.9999, 40)};
+    std::vector<Case> cases{furnace_by_paths(0.9, 2'000), furnace_by_paths(0.99, 400),
+                            furnace_by_paths(0.999, 100), furnace_by_paths(0.9999, 10)};
     for (const double albedo : {0.9, 0.99, 0.999, 0.9999}) cases.push_back(furnace_by_photons(albedo));
     cases.push_back({"closed box of albedo 0.9, picture by photons", "relative error of the radiance",
                      "4.5 sigma of the k photons and of the paths", furnace_picture});
     for (const double share : {1e-2, 1e-3, 1e-4, 1e-5})
         cases.push_back(keyhole_by_paths(share, static_cast<std::uint32_t>(std::min(20'000.0, 20 / share))));
     for (const double share : {1e-2, 1e-3, 1e-4, 1e-5}) cases.push_back(keyhole_by_photons(share));
-    cases.push_back({"a light of 1e-12 of another's power, path tracer", "relative error of the radiance", "4.5 sigma of the samples",
-                     weak_light_by_paths});
-    cases.push_back({"a light of 1e-12 of another's power, photon mapper", "relative error of the direct light",
-                     "64 stratified shadow rays a pixel", weak_light_by_photon_mapper});
-    cases.push_back({"a light beside one of 1e-12 of its power", "relative error of the radiance", "4.5 sigma of the samples",
-                     strong_beside_weak});
+    cases.push_back({"a light of 1e-12 of another's power, path tracer", "relative error of the radiance",
+                     "4.5 sigma of the samples", weak_light_by_paths});
+    cases.push_back({"a light of 1e-12 of another's power, photon mapper",
+                     "relative error of the direct light", "64 stratified shadow rays a pixel",
+                     weak_light_by_photon_mapper});
+    cases.push_back({"a light beside one of 1e-12 of its power", "relative error of the radiance",
+                     "4.5 sigma of the samples", strong_beside_weak});
     return cases;
 }
 

@@ -198,6 +198,34 @@ TEST(Bsdf, ANarrowLobeKeepsItsShape) {
     }
 }
 
+/// n = z and the viewer overhead: the half vector's angle is half of the light's, theta. (n.h)^e = cos(theta / 2)^e in long double.
+TEST(Bsdf, ANarrowLobeHasItsValueOnItsFlank) {
+    const Material material = glossy(0, 1, 1e6f);
+    for (const double theta : {5e-4, 2e-3, 4e-3}) {
+        const Vec3 light{static_cast<float>(std::sin(theta)), 0, static_cast<float>(std::cos(theta))};
+        const long double half = std::atan2(static_cast<long double>(light.x), static_cast<long double>(light.z)) / 2;
+        const double expected = blinn_phong_norm(1e6f) * static_cast<double>(std::exp(1e6L * std::log(std::cos(half))));
+        EXPECT_NEAR(brdf(material, {0, 0, 1}, light, {0, 0, 1}).x, expected, 1e-5 * expected) << theta;
+    }
+}
+
+TEST(Bsdf, LambertScattersItsAlbedoByChannel) {
+    Material material;
+    material.diffuse = {0.9f, 0.3f, 0.6f};
+    double red = 0, green = 0;
+    constexpr int samples = 20000;
+    for (int i = 0; i < samples; ++i) {
+        Sampler sampler(2, Stream::photon, static_cast<std::uint64_t>(i));
+        const Scatter next = scatter(material, {0, 0, 1}, {0, 0, 1}, sampler);
+        if (next.absorbed) continue;
+        red += next.weight.x;
+        green += next.weight.y;
+    }
+    const double error = std::sqrt(0.6 * 0.4 / samples);  // of the share that is not absorbed
+    EXPECT_NEAR(red / samples, 0.9, 4 * error * 1.5);
+    EXPECT_NEAR(green / samples, 0.3, 4 * error * 0.5);
+}
+
 TEST(Bsdf, NothingIsInfiniteForAnyUnitVectors) {
     const Vec3 normal = normalize(Vec3{0.3f, -0.5f, 0.7f});
     const Frame frame(normal);

@@ -91,7 +91,7 @@ TEST(Capture, AnotherSeedIsAnotherPicture) {
     CaptureConfig other = small();
     other.pixels.seed = other.photon.seed = 6;
     const scenes::Scene scene = scenes::load_scene("box");
-    EXPECT_NE(pixel_hash(capture(scene, small()).image), pixel_hash(capture(scene, other, nullptr).image));
+    EXPECT_NE(pixel_hash(capture(scene, small()).image), pixel_hash(capture(scene, other).image));
 }
 
 TEST(Capture, DecodedWalksAreTheSearchsOwnVisitsOnEveryQuery) {

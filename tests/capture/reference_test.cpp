@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -164,6 +165,21 @@ TEST_F(ReferenceTest, TellsItsOwnError) {
     for (const Moments& pixel : over_seeds)
         for (std::size_t c = 0; c < 3; ++c) found += pixel.variance(c, seeds) * seeds / (3.0 * key.width * key.height);
     EXPECT_NEAR(found / told, 1, 0.08);
+}
+
+/// Two samples 0 and 2 d: mean d, variance of the mean d^2.
+TEST_F(ReferenceTest, SummariesAreThoseOfThreePixels) {
+    Reference reference({"three", "", 3, 1, 1});
+    reference.samples = 2;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double d = std::array{1.0, 3.0, 8.0}[i];
+        reference.pixels[i].add({0, 0, 0}, 1);
+        reference.pixels[i].add({2 * d, 2 * d, 2 * d}, 2);
+    }
+    EXPECT_DOUBLE_EQ(reference.mean_radiance(), 4);
+    EXPECT_DOUBLE_EQ(reference.mean_variance(), (1.0 + 9 + 64) / 3);
+    EXPECT_DOUBLE_EQ(reference.median_variance(), 9);
+    EXPECT_EQ(reference.variance().pixels[2].y, 64);
 }
 
 TEST_F(ReferenceTest, ImagesAreMeanAndVariance) {

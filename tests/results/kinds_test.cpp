@@ -228,7 +228,7 @@ TEST(Chart, TheKindsThatAreWantedAreThoseWithRows) {
     EXPECT_THAT(names(wanted_kinds({{}, details, {}, {}}, {})), ElementsAre("traffic-by-depth"));
     EXPECT_THAT(names(wanted_kinds(only(rows), {})),
                 ElementsAre("traffic-by-tile", "traffic-by-cache", "cost-by-tile", "cost-by-bins",
-                            "misses-by-class", "net-benefit"));
+                            "misses-by-class", "net-benefit", "traffic-by-frame"));
     const std::string asked[] = {"timeline"};
     EXPECT_THAT(names(wanted_kinds(only(rows), asked)), ElementsAre("timeline"));
     EXPECT_TRUE(wanted_kinds({}, {}).empty());

@@ -23,7 +23,8 @@ Scene along(std::vector<KeyFrame> keys) {
 }
 
 TEST(CameraPath, PassesThroughItsKeysWithTheScenesFieldOfView) {
-    const Scene scene = along({{0, {0, 0, 1}, {1, 0, 1}}, {3, {1, 2, 1}, {4, 0, 0}}, {10, {5, 2, 2}, {4, 9, 0}, {0, 1, 1}}});
+    const Scene scene =
+        along({{0, {0, 0, 1}, {1, 0, 1}}, {3, {1, 2, 1}, {4, 0, 0}}, {10, {5, 2, 2}, {4, 9, 0}, {0, 1, 1}}});
     for (const KeyFrame& key : scene.camera_path) {
         const Camera camera = camera_at(scene, key.frame);
         EXPECT_EQ(camera.position, key.position);
@@ -34,22 +35,27 @@ TEST(CameraPath, PassesThroughItsKeysWithTheScenesFieldOfView) {
 }
 
 TEST(CameraPath, ACurveByHand) {
-    // Keys at x = 0, 4, 12 and frames 0, 4, 8: slopes 1, 12 / 8 and 2 a frame. Frame 2 (t = 1/2) of the first stretch:
-    // (0 + 4) / 2 + 4 (1 - 1.5) / 8 = 1.75; frame 6: (4 + 12) / 2 + 4 (1.5 - 2) / 8 = 7.75.
-    const Scene scene = along({{0, {0, 0, 1}, {0, 9, 1}}, {4, {4, 0, 1}, {0, 9, 1}}, {8, {12, 0, 1}, {0, 9, 1}}});
+    // Keys at x = 0, 4, 12 and frames 0, 4, 8: slopes 1, 12 / 8 and 2 a frame. Frame 2 (t = 1/2) of the first
+    // stretch: (0 + 4) / 2 + 4 (1 - 1.5) / 8 = 1.75; frame 6: (4 + 12) / 2 + 4 (1.5 - 2) / 8 = 7.75.
+    const Scene scene =
+        along({{0, {0, 0, 1}, {0, 9, 1}}, {4, {4, 0, 1}, {0, 9, 1}}, {8, {12, 0, 1}, {0, 9, 1}}});
     EXPECT_FLOAT_EQ(camera_at(scene, 2).position.x, 1.75f);
     EXPECT_FLOAT_EQ(camera_at(scene, 6).position.x, 7.75f);
-    // Uneven keys: slope at the middle key is (6 - 0) / (6 - 0) = 1; frame 1 of the stretch of 2 frames from 0 to 2:
-    // 1 + 2 (1 - 1) / 8 = 1.
-    const Scene uneven = along({{0, {0, 0, 1}, {0, 9, 1}}, {2, {2, 0, 1}, {0, 9, 1}}, {6, {6, 0, 1}, {0, 9, 1}}});
+    // Uneven keys: slope at the middle key is (6 - 0) / (6 - 0) = 1; frame 1 of the stretch of 2 frames from
+    // 0 to 2: 1 + 2 (1 - 1) / 8 = 1.
+    const Scene uneven =
+        along({{0, {0, 0, 1}, {0, 9, 1}}, {2, {2, 0, 1}, {0, 9, 1}}, {6, {6, 0, 1}, {0, 9, 1}}});
     for (std::uint32_t frame = 0; frame <= 6; ++frame)
         EXPECT_FLOAT_EQ(camera_at(uneven, frame).position.x, static_cast<float>(frame));
 }
 
 TEST(CameraPath, HasNoKinkAtItsKeys) {
-    // Steps of one frame of a path 1000 frames long: on a smooth curve two successive ones differ by h^2 times a bounded second
-    // derivative; a kink of the slope would show as a difference like h.
-    const Scene scene = along({{0, {0, 0, 0}, {9, 9, 9}}, {300, {3, 0, 0}, {9, 9, 9}}, {450, {3, 3, 0}, {9, 9, 9}}, {1000, {0, 3, 3}, {9, 9, 9}}});
+    // Steps of one frame of a path 1000 frames long: on a smooth curve two successive ones differ by h^2
+    // times a bounded second derivative; a kink of the slope would show as a difference like h.
+    const Scene scene = along({{0, {0, 0, 0}, {9, 9, 9}},
+                               {300, {3, 0, 0}, {9, 9, 9}},
+                               {450, {3, 3, 0}, {9, 9, 9}},
+                               {1000, {0, 3, 3}, {9, 9, 9}}});
     for (std::uint32_t frame = 1; frame + 1 < scene.frames; ++frame) {
         const Vec3 before = camera_at(scene, frame - 1).position, at = camera_at(scene, frame).position;
         const Vec3 after = camera_at(scene, frame + 1).position;
@@ -119,15 +125,22 @@ TEST(CameraPath, KeysThatDoNotMakeAPathAreRefused) {
                                  R"(, "position": [1, -3, 1], "target": [0, 0, 1]}]})"));
     };
     EXPECT_EQ(keys("0", "4"), "");
-    EXPECT_EQ(keys("1", "4"), "t.json: camera_path.keys[0].frame: found 1, expected 0 in the first key frame");
-    EXPECT_EQ(keys("0", "3"), "t.json: camera_path.keys[1].frame: found 3, expected 4, the last frame, in the last key frame");
-    EXPECT_THAT(keys("0", "0"), HasSubstr("camera_path.keys[1].frame: found 0 after 0, expected a whole number, below frames"));
+    EXPECT_EQ(keys("1", "4"),
+              "t.json: camera_path.keys[0].frame: found 1, expected 0 in the first key frame");
+    EXPECT_EQ(
+        keys("0", "3"),
+        "t.json: camera_path.keys[1].frame: found 3, expected 4, the last frame, in the last key frame");
+    EXPECT_THAT(
+        keys("0", "0"),
+        HasSubstr("camera_path.keys[1].frame: found 0 after 0, expected a whole number, below frames"));
     EXPECT_THAT(keys("0", "5"), HasSubstr("camera_path.keys[1].frame: found 5"));
-    EXPECT_THAT(refusal(with_path(R"({"frames": 5, "keys": [{"frame": 0, "position": [0, -3, 1], "target": [0, 0, 1]}]})")),
-                HasSubstr("camera_path.keys: found a list of 1, expected a list of at least two"));
     EXPECT_THAT(refusal(with_path(
-                    R"({"frames": 5, "keys": [{"frame": 0, "position": [0, -3, 1], "target": [0, -3, 1]}, {"frame": 4, "position": [1, -3, 1], "target": [0, 0, 1]}]})")),
-                HasSubstr("camera_path.keys[0].target: found the key frame's position"));
+                    R"({"frames": 5, "keys": [{"frame": 0, "position": [0, -3, 1], "target": [0, 0, 1]}]})")),
+                HasSubstr("camera_path.keys: found a list of 1, expected a list of at least two"));
+    EXPECT_THAT(
+        refusal(with_path(
+            R"({"frames": 5, "keys": [{"frame": 0, "position": [0, -3, 1], "target": [0, -3, 1]}, {"frame": 4, "position": [1, -3, 1], "target": [0, 0, 1]}]})")),
+        HasSubstr("camera_path.keys[0].target: found the key frame's position"));
 }
 
 }  // namespace

@@ -27,14 +27,16 @@ std::string tetrahedron() {
     std::string bytes;
     for (const Vec3 p : {Vec3{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}})
         for (int axis = 0; axis < 3; ++axis) put(bytes, p[axis]);
-    for (const std::uint16_t i : std::array<std::uint16_t, 12>{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}) put(bytes, i);
+    for (const std::uint16_t i : std::array<std::uint16_t, 12>{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3})
+        put(bytes, i);
     return bytes;
 }
 
 struct Parts {
     std::string nodes = R"([{"mesh": 0}])";
     std::string buffer = R"("byteLength": 72, "uri": "t.bin")";
-    std::string views = R"([{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 24}])";
+    std::string views =
+        R"([{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 24}])";
     std::string positions = R"("bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3")";
     std::string indices = R"("bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR")";
     std::string more{};
@@ -43,7 +45,9 @@ struct Parts {
         return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": )" + nodes +
                R"(, "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
                "materials": [{"name": "blue", "pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.9, 1], "metallicFactor": 0, "roughnessFactor": 1}}],
-               "buffers": [{)" + buffer + R"(}], "bufferViews": )" + views + R"(, "accessors": [{)" + positions + "}, {" + indices + "}]" + more + "}";
+               "buffers": [{)" +
+               buffer + R"(}], "bufferViews": )" + views + R"(, "accessors": [{)" + positions + "}, {" +
+               indices + "}]" + more + "}";
     }
 };
 
@@ -80,8 +84,8 @@ protected:
 TEST_F(GltfFile, ATetrahedronIsReadFromGltfAndGlbAlike) {
     Parts inside;
     inside.buffer = R"("byteLength": 72)";
-    for (const std::filesystem::path& file :
-         {folder_.write("a.gltf", Parts{}.text()), folder_.write("b.GLB", glb(inside.text(), tetrahedron()))}) {
+    for (const std::filesystem::path& file : {folder_.write("a.gltf", Parts{}.text()),
+                                              folder_.write("b.GLB", glb(inside.text(), tetrahedron()))}) {
         const Mesh mesh = read_mesh(file);
         EXPECT_EQ(mesh.surface.triangles.size(), 4u);
         EXPECT_EQ(unpaired_edges(mesh.surface.vertices, mesh.surface.triangles), 0u);
@@ -97,7 +101,8 @@ TEST_F(GltfFile, ATetrahedronIsReadFromGltfAndGlbAlike) {
 TEST_F(GltfFile, ADataUriIsABufferToo) {
     // Three floats 0 and three 1, by hand: 0x3f800000 is "AACAPw==" in base64, little-endian.
     Parts parts;
-    parts.buffer = R"("byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA")";
+    parts.buffer =
+        R"("byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA")";
     parts.views = R"([{"buffer": 0, "byteLength": 36}])";
     parts.positions = R"("bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3")";
     std::string text = parts.text();
@@ -109,9 +114,11 @@ TEST_F(GltfFile, ADataUriIsABufferToo) {
 }
 
 TEST_F(GltfFile, NodesPlaceTheMesh) {
-    // Parent: 2 x, then moved by 10 along x. Child: a quarter turn about z, which takes (1, 0, 0) to (0, 1, 0).
+    // Parent: 2 x, then moved by 10 along x. Child: a quarter turn about z, which takes (1, 0, 0) to (0, 1,
+    // 0).
     Parts parts;
-    parts.nodes = R"([{"children": [1], "scale": [2, 2, 2], "translation": [10, 0, 0]}, {"mesh": 0, "rotation": [0, 0, 0.70710678118654752, 0.70710678118654752]}])";
+    parts.nodes =
+        R"([{"children": [1], "scale": [2, 2, 2], "translation": [10, 0, 0]}, {"mesh": 0, "rotation": [0, 0, 0.70710678118654752, 0.70710678118654752]}])";
     const Mesh mesh = read(parts);
     EXPECT_LT(length(mesh.surface.vertices[1] - Vec3{10, 2, 0}), 1e-5f);
     EXPECT_LT(length(mesh.surface.vertices[2] - Vec3{8, 0, 0}), 1e-5f);
@@ -131,9 +138,11 @@ TEST_F(GltfFile, ASmallFileThatDeclaresABillionIsRefusedInBoundedMemory) {
     getrusage(RUSAGE_SELF, &before);
     Parts parts;
     parts.positions = R"("bufferView": 0, "componentType": 5126, "count": 1000000000, "type": "VEC3")";
-    EXPECT_THAT(refused(parts), HasSubstr("accessor 0 of 1000000000 elements at byte 0, expected what fits the 48 bytes"));
+    EXPECT_THAT(refused(parts),
+                HasSubstr("accessor 0 of 1000000000 elements at byte 0, expected what fits the 48 bytes"));
     parts = {};
-    parts.positions = R"("bufferView": 0, "componentType": 5126, "count": 18446744073709551615, "type": "VEC3")";
+    parts.positions =
+        R"("bufferView": 0, "componentType": 5126, "count": 18446744073709551615, "type": "VEC3")";
     EXPECT_THAT(refused(parts), HasSubstr("18446744073709551615"));
     parts = {};
     parts.positions = R"("componentType": 5126, "count": 1000000000, "type": "VEC3", "sparse": {})";
@@ -148,11 +157,13 @@ TEST_F(GltfFile, ASmallFileThatDeclaresABillionIsRefusedInBoundedMemory) {
 
 TEST_F(GltfFile, WhatLeadsBeyondItsBytesIsRefused) {
     Parts parts;
-    parts.positions = R"("bufferView": 0, "byteOffset": 4, "componentType": 5126, "count": 4, "type": "VEC3")";
+    parts.positions =
+        R"("bufferView": 0, "byteOffset": 4, "componentType": 5126, "count": 4, "type": "VEC3")";
     EXPECT_THAT(refused(parts), HasSubstr("accessor 0 of 4 elements at byte 4"));
     parts = {};
     parts.views = R"([{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 60, "byteLength": 24}])";
-    EXPECT_THAT(refused(parts), HasSubstr("a bufferView of 24 bytes at 60, expected at most the buffer's 72"));
+    EXPECT_THAT(refused(parts),
+                HasSubstr("a bufferView of 24 bytes at 60, expected at most the buffer's 72"));
     parts = {};
     parts.views = R"([{"buffer": 0, "byteLength": 48}, {"buffer": 1, "byteLength": 24}])";
     EXPECT_THAT(refused(parts), HasSubstr("buffer 1, expected one of 1"));
@@ -182,8 +193,10 @@ TEST_F(GltfFile, AnyCutIsRefused) {
     Parts inside;
     inside.buffer = R"("byteLength": 72)";
     const std::string binary = glb(inside.text(), tetrahedron()), text = Parts{}.text();
-    for (std::size_t length = 0; length < binary.size(); ++length) EXPECT_NE(refused("c.glb", binary.substr(0, length)), "") << length;
-    for (std::size_t length = 0; length < text.size(); ++length) EXPECT_NE(refused("c.gltf", text.substr(0, length)), "") << length;
+    for (std::size_t length = 0; length < binary.size(); ++length)
+        EXPECT_NE(refused("c.glb", binary.substr(0, length)), "") << length;
+    for (std::size_t length = 0; length < text.size(); ++length)
+        EXPECT_NE(refused("c.gltf", text.substr(0, length)), "") << length;
 }
 
 TEST_F(GltfFile, AnyChangedByteIsRefusedOrReadWithoutHarm) {
@@ -202,7 +215,8 @@ TEST_F(GltfFile, ASceneTurnsYUpToZUp) {
     folder_.write("t.gltf", Parts{}.text());
     const std::string shape = R"({"type": "mesh", "file": "t.gltf", "up_axis": "y"})";
     const Scene scene = parse_scene(SceneText{.shapes = shape}.text(), "t.json", folder_.path());
-    // The file's y is up: its (0, 1, 0) stands at (0, 0, 1), and its (0, 0, 1), towards the viewer, at (0, -1, 0).
+    // The file's y is up: its (0, 1, 0) stands at (0, 0, 1), and its (0, 0, 1), towards the viewer, at (0,
+    // -1, 0).
     EXPECT_EQ(scene.vertices[1], (Vec3{1, 0, 0}));
     EXPECT_EQ(scene.vertices[2], (Vec3{0, 0, 1}));
     EXPECT_EQ(scene.vertices[3], (Vec3{0, -1, 0}));

@@ -67,16 +67,19 @@ TEST_F(OwnMaterials, GiveWayToTheScenes) {
     EXPECT_EQ(named(one, "white").kind, MaterialKind::diffuse);
     EXPECT_EQ(named(one, "paint").kind, MaterialKind::glossy);
     EXPECT_THROW(named(one, "pane"), std::runtime_error);
-    EXPECT_EQ(refusal(text(R"(, "materials": {"pan": "white"})"), folder_.path()),
-              "t.json: shapes[0].materials.pan: found \"pan\", no material of \"four.obj\", expected \"pane\"");
-    EXPECT_THAT(refusal(text(R"(, "materials": {"pane": "wite"})"), folder_.path()), HasSubstr("unknown material \"wite\""));
+    EXPECT_EQ(
+        refusal(text(R"(, "materials": {"pan": "white"})"), folder_.path()),
+        "t.json: shapes[0].materials.pan: found \"pan\", no material of \"four.obj\", expected \"pane\"");
+    EXPECT_THAT(refusal(text(R"(, "materials": {"pane": "wite"})"), folder_.path()),
+                HasSubstr("unknown material \"wite\""));
 }
 
 TEST_F(OwnMaterials, ACopyOfTheMeshSharesThem) {
     folder_.write("four.obj", four_obj);
     folder_.write("four.mtl", four_mtl);
     const std::string shape = R"({"type": "mesh", "file": "four.obj"})";
-    const Scene twice = parse_scene(SceneText{.shapes = shape + "," + shape}.text(), "t.json", folder_.path());
+    const Scene twice =
+        parse_scene(SceneText{.shapes = shape + "," + shape}.text(), "t.json", folder_.path());
     EXPECT_EQ(twice.triangles.size(), 8u);
     EXPECT_EQ(twice.materials.size(), 5u);  // white, and the four
 }
@@ -84,9 +87,15 @@ TEST_F(OwnMaterials, ACopyOfTheMeshSharesThem) {
 TEST_F(OwnMaterials, AMissingLibraryIsRefusedUnlessEveryFaceHasAMaterialOfTheScene) {
     folder_.write("four.obj", four_obj);
     EXPECT_EQ(refusal(text(""), folder_.path()),
-              "t.json: shapes[0].file: found no material library \"four.mtl\", expected that file, or a \"material\" for all faces");
+              "t.json: shapes[0].file: found no material library \"four.mtl\", expected that file, or a "
+              "\"material\" for all faces");
     EXPECT_EQ(refusal(text(R"(, "material": "white")"), folder_.path()), "");
-    EXPECT_EQ(refusal(text(R"(, "materials": {"chalk": "white", "paint": "white", "pane": "white", "silver": "white"})"), folder_.path()), "");
+    EXPECT_EQ(
+        refusal(
+            text(
+                R"(, "materials": {"chalk": "white", "paint": "white", "pane": "white", "silver": "white"})"),
+            folder_.path()),
+        "");
 }
 
 TEST_F(OwnMaterials, FacesWithoutOneAreGrey) {
@@ -102,13 +111,15 @@ TEST_F(OwnMaterials, DamagedLibrariesAndObjectsAreRefusedWithTheirLine) {
         folder_.write("four.mtl", mtl);
         return refusal(text(""), folder_.path());
     };
-    EXPECT_THAT(with(four_obj, "Kd 1 1 1\n"), HasSubstr("four.mtl: found a term before the first newmtl in line 1, \"Kd 1 1 1\""));
+    EXPECT_THAT(with(four_obj, "Kd 1 1 1\n"),
+                HasSubstr("four.mtl: found a term before the first newmtl in line 1, \"Kd 1 1 1\""));
     EXPECT_THAT(with(four_obj, "newmtl a\nKd 1 1\n"), HasSubstr("a term without its numbers in line 2"));
     EXPECT_THAT(with(four_obj, "newmtl a\nNs nan\n"), HasSubstr("a term without its numbers in line 2"));
     EXPECT_THAT(with("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 1000000000\n", four_mtl),
                 HasSubstr("the corner \"1000000000\" of 3 vertices in line 4"));
     EXPECT_THAT(with("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", four_mtl), HasSubstr("the corner \"0\""));
-    EXPECT_THAT(with("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/1 3/1\n", four_mtl), HasSubstr("the corner \"1/1\""));
+    EXPECT_THAT(with("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/1 3/1\n", four_mtl),
+                HasSubstr("the corner \"1/1\""));
     EXPECT_THAT(with("v 0 0\n", four_mtl), HasSubstr("a vertex without three finite numbers in line 1"));
     EXPECT_EQ(check_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1 # back from here\n").damage, "");
     EXPECT_THAT(check_obj("v 0 0 0\nf -1 -2 -1\nv 0 0 0\n").damage, HasSubstr("the corner \"-2\""));
@@ -133,24 +144,29 @@ TEST_F(OwnMaterials, AnyChangedByteOfALibraryIsRefusedOrReadWithoutHarm) {
 TEST(MeshMaterial, TheRulesOfMtl) {
     EXPECT_EQ(material_of("a", MtlTerms{.d = 0.49f}).kind, MaterialKind::dielectric);
     EXPECT_EQ(material_of("a", MtlTerms{.d = 0.5f}).kind, MaterialKind::diffuse);
-    for (const int illum : {4, 6, 7, 9}) EXPECT_EQ(material_of("a", MtlTerms{.illum = illum}).kind, MaterialKind::dielectric);
+    for (const int illum : {4, 6, 7, 9})
+        EXPECT_EQ(material_of("a", MtlTerms{.illum = illum}).kind, MaterialKind::dielectric);
     EXPECT_EQ(material_of("a", MtlTerms{.ni = 1, .illum = 4}).index_of_refraction, 1.5f);
     EXPECT_EQ(material_of("a", MtlTerms{.ni = 99, .illum = 4}).index_of_refraction, 10);
     // A bright body under a reflecting illum is paint, not a mirror.
-    EXPECT_EQ(material_of("a", MtlTerms{.kd = {0.5f, 0, 0}, .ks = {0.2f, 0.2f, 0.2f}, .ns = 9, .illum = 3}).kind, MaterialKind::glossy);
+    EXPECT_EQ(
+        material_of("a", MtlTerms{.kd = {0.5f, 0, 0}, .ks = {0.2f, 0.2f, 0.2f}, .ns = 9, .illum = 3}).kind,
+        MaterialKind::glossy);
     EXPECT_EQ(material_of("a", MtlTerms{.ks = {0.2f, 0.2f, 0.2f}, .ns = 0}).kind, MaterialKind::diffuse);
     EXPECT_EQ(material_of("a", MtlTerms{.kd = {2, -1, 0.5f}}).diffuse, (Vec3{1, 0, 0.5f}));
 }
 
 TEST(MeshMaterial, TheRulesOfMetallicRoughness) {
     const Vec3 gold{1, 0.8f, 0.3f};
-    EXPECT_EQ(material_of("a", MetallicRoughness{.base_color = gold, .roughness = 0.05f}).kind, MaterialKind::mirror);
+    EXPECT_EQ(material_of("a", MetallicRoughness{.base_color = gold, .roughness = 0.05f}).kind,
+              MaterialKind::mirror);
     const Material brushed = material_of("a", MetallicRoughness{.base_color = gold, .roughness = 0.5f});
     EXPECT_EQ(brushed.kind, MaterialKind::glossy);
     EXPECT_EQ(brushed.specular, gold);
     EXPECT_FLOAT_EQ(brushed.exponent, 2 / 0.0625f - 2);
     EXPECT_EQ(material_of("a", MetallicRoughness{.metallic = 0, .roughness = 1}).kind, MaterialKind::diffuse);
-    EXPECT_EQ(material_of("a", MetallicRoughness{.metallic = 0, .transmission = 1}).kind, MaterialKind::dielectric);
+    EXPECT_EQ(material_of("a", MetallicRoughness{.metallic = 0, .transmission = 1}).kind,
+              MaterialKind::dielectric);
 }
 
 const std::string sphere_light = R"({"type": "sphere", "center": [0, 0, 3], "radius": 0.5, "segments": )";
@@ -159,7 +175,9 @@ TEST(MeshLight, ASphereLightsAreaGoesToFourPiRSquared) {
     const double exact = std::numbers::pi;  // 4 pi 0.5^2
     double before = 0;
     for (const int segments : {16, 32, 64, 128}) {
-        const Scene scene = parse(SceneText{.lights = sphere_light + std::to_string(segments) + R"(, "radiance": [2, 2, 2]})"}.text());
+        const Scene scene =
+            parse(SceneText{.lights = sphere_light + std::to_string(segments) + R"(, "radiance": [2, 2, 2]})"}
+                      .text());
         ASSERT_EQ(scene.lights.size(), 1u);
         const AreaLight& light = scene.lights[0];
         EXPECT_TRUE(light.is_mesh());
@@ -171,23 +189,28 @@ TEST(MeshLight, ASphereLightsAreaGoesToFourPiRSquared) {
         before = lost;
         EXPECT_EQ(light.first_triangle, 2u);
         EXPECT_EQ(light.first_triangle + light.triangle_count, scene.triangles.size());
-        for (std::size_t t = 0; t < scene.triangles.size(); ++t) EXPECT_EQ(scene.triangle_light[t], t < 2 ? -1 : 0);
+        for (std::size_t t = 0; t < scene.triangles.size(); ++t)
+            EXPECT_EQ(scene.triangle_light[t], t < 2 ? -1 : 0);
     }
     EXPECT_LT(before / exact, 1e-3);
 }
 
 TEST(MeshLight, PowerIsPiTimesItsMeshsAreaTimesRadiance) {
-    const Scene scene = parse(SceneText{.lights = sphere_light + R"(64, "power": [60, 30, 10]}, )" + sphere_light + R"(8, "power": [1, 1, 1]})"}.text());
+    const Scene scene = parse(SceneText{.lights = sphere_light + R"(64, "power": [60, 30, 10]}, )" +
+                                                  sphere_light + R"(8, "power": [1, 1, 1]})"}
+                                  .text());
     EXPECT_NEAR(scene.lights[0].power().x, 60, 1e-3);
     EXPECT_NEAR(scene.lights[0].radiance.x, 60 / (std::numbers::pi * scene.lights[0].area()), 1e-4);
-    EXPECT_EQ(scene.lights[1].first_triangle, scene.lights[0].first_triangle + scene.lights[0].triangle_count);
+    EXPECT_EQ(scene.lights[1].first_triangle,
+              scene.lights[0].first_triangle + scene.lights[0].triangle_count);
     EXPECT_EQ(scene.triangle_light.back(), 1);
 }
 
 TEST(MeshLight, AFilesTrianglesShine) {
     const ScratchFolder folder;
     folder.write("l.obj", "v 0 0 0\nv 3 0 0\nv 0 4 0\nv 0 0 1\nf 1 2 3\nf 1 2 2\n");
-    const std::string light = R"({"type": "mesh", "file": "l.obj", "scale": 2, "translate": [0, 0, 5], "radiance": [1, 1, 1]})";
+    const std::string light =
+        R"({"type": "mesh", "file": "l.obj", "scale": 2, "translate": [0, 0, 5], "radiance": [1, 1, 1]})";
     const Scene scene = parse_scene(SceneText{.lights = light}.text(), "t.json", folder.path());
     ASSERT_EQ(scene.lights.size(), 1u);
     EXPECT_EQ(scene.lights[0].triangle_count, 1u);

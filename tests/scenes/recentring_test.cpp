@@ -13,19 +13,25 @@ using ::testing::HasSubstr;
 
 // A scene of 4 m with a light, all of it moved by `by` along each axis.
 std::string moved_scene(double by) {
-    const auto at = [by](double x, double y, double z) { return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", x + by, y + by, z + by); };
+    const auto at = [by](double x, double y, double z) {
+        return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", x + by, y + by, z + by);
+    };
     SceneText text;
     text.camera = R"({"position": )" + at(0, -3, 1) + R"(, "target": )" + at(0, 0, 1) +
                   R"(, "up": [0, 0, 1], "vertical_fov_degrees": 50})";
-    text.shapes = R"({"type": "quad", "material": "white", "corner": )" + at(-2, -2, 0) +
-                  R"(, "edge_u": [4, 0, 0], "edge_v": [0, 4, 0], "divide": [8, 8]}, {"type": "sphere", "material": "white", "center": )" +
-                  at(0.5, 0.5, 1) + R"(, "radius": 0.3, "segments": 24}, {"type": "mesh", "material": "white", "file": "t.obj", "translate": )" +
-                  at(-1, 0, 0.25) + R"(}, {"type": "cylinder", "material": "white", "from": )" + at(1, 1, 0) + R"(, "to": )" + at(1, 1, 2) +
-                  R"(, "radius": 0.1, "segments": 12})";
-    text.lights = R"({"corner": )" + at(-0.5, -0.5, 3) + R"(, "edge_u": [0, 1, 0], "edge_v": [1, 0, 0], "power": [9, 9, 9]})";
+    text.shapes =
+        R"({"type": "quad", "material": "white", "corner": )" + at(-2, -2, 0) +
+        R"(, "edge_u": [4, 0, 0], "edge_v": [0, 4, 0], "divide": [8, 8]}, {"type": "sphere", "material": "white", "center": )" +
+        at(0.5, 0.5, 1) +
+        R"(, "radius": 0.3, "segments": 24}, {"type": "mesh", "material": "white", "file": "t.obj", "translate": )" +
+        at(-1, 0, 0.25) + R"(}, {"type": "cylinder", "material": "white", "from": )" + at(1, 1, 0) +
+        R"(, "to": )" + at(1, 1, 2) + R"(, "radius": 0.1, "segments": 12})";
+    text.lights = R"({"corner": )" + at(-0.5, -0.5, 3) +
+                  R"(, "edge_u": [0, 1, 0], "edge_v": [1, 0, 0], "power": [9, 9, 9]})";
     std::string whole = text.text();
-    whole.insert(1, R"("camera_path": {"frames": 2, "keys": [{"frame": 0, "position": )" + at(0, -3, 1) + R"(, "target": )" + at(0, 0, 1) +
-                        R"(}, {"frame": 1, "position": )" + at(0, -2, 1) + R"(, "target": )" + at(0, 0, 1) + "}]}, ");
+    whole.insert(1, R"("camera_path": {"frames": 2, "keys": [{"frame": 0, "position": )" + at(0, -3, 1) +
+                        R"(, "target": )" + at(0, 0, 1) + R"(}, {"frame": 1, "position": )" + at(0, -2, 1) +
+                        R"(, "target": )" + at(0, 0, 1) + "}]}, ");
     return whole;
 }
 
@@ -37,7 +43,8 @@ protected:
 };
 
 TEST_F(Recentring, ASceneNearTheOriginStaysWhereItIs) {
-    for (const double by : {0.0, 100.0, 3000.0}) EXPECT_EQ(load(by).recentred_by, (std::array<double, 3>{})) << by;
+    for (const double by : {0.0, 100.0, 3000.0})
+        EXPECT_EQ(load(by).recentred_by, (std::array<double, 3>{})) << by;
 }
 
 TEST_F(Recentring, AMovedSceneIsTheUnmovedOneToFloatRounding) {
@@ -50,9 +57,12 @@ TEST_F(Recentring, AMovedSceneIsTheUnmovedOneToFloatRounding) {
         const double tolerance = 2e-6 + std::abs(by) * 2.3e-16;
         const auto expect_same = [&](Vec3 a, Vec3 b) {
             for (int axis = 0; axis < 3; ++axis)
-                ASSERT_NEAR(a[axis] + moved.recentred_by[static_cast<std::size_t>(axis)] - by, b[axis], tolerance) << by;
+                ASSERT_NEAR(a[axis] + moved.recentred_by[static_cast<std::size_t>(axis)] - by, b[axis],
+                            tolerance)
+                    << by;
         };
-        for (std::size_t v = 0; v < still.vertices.size(); ++v) expect_same(moved.vertices[v], still.vertices[v]);
+        for (std::size_t v = 0; v < still.vertices.size(); ++v)
+            expect_same(moved.vertices[v], still.vertices[v]);
         expect_same(moved.camera.position, still.camera.position);
         expect_same(moved.camera.target, still.camera.target);
         expect_same(moved.camera_path[1].position, still.camera_path[1].position);

@@ -14,16 +14,26 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double volume(const Surface& s) { return scenes::volume(s.vertices, s.triangles); }
-std::size_t unpaired_edges(const Surface& s) { return scenes::unpaired_edges(s.vertices, s.triangles); }
+double volume(const Surface& s) {
+    return scenes::volume(s.vertices, s.triangles);
+}
+std::size_t unpaired_edges(const Surface& s) {
+    return scenes::unpaired_edges(s.vertices, s.triangles);
+}
 
 // Of a regular polygon with n corners on the unit circle.
-double polygon_area(std::uint32_t n) { return n / 2.0 * std::sin(2 * pi / n); }
+double polygon_area(std::uint32_t n) {
+    return n / 2.0 * std::sin(2 * pi / n);
+}
 
 TEST(Revolution, ACylinderIsAPrismOverARegularPolygonWhereverItPoints) {
     ASSERT_TRUE(rc::check([] {
         const auto place = [] { return static_cast<float>(*rc::gen::inRange(-3000, 3000)) / 1000.0f; };
-        Cylinder cylinder{{place(), place(), place()}, {place(), place(), place()}, 0.75f, 0.75f, *rc::gen::inRange(3u, 40u)};
+        Cylinder cylinder{{place(), place(), place()},
+                          {place(), place(), place()},
+                          0.75f,
+                          0.75f,
+                          *rc::gen::inRange(3u, 40u)};
         const double height = static_cast<double>(length(cylinder.to - cylinder.from));
         RC_PRE(height > 0.1);
         const Surface surface = tessellate(cylinder);
@@ -38,7 +48,8 @@ TEST(Revolution, ACylinderIsAPrismOverARegularPolygonWhereverItPoints) {
 
 TEST(Revolution, AConeHasAThirdOfTheVolume) {
     for (const bool up : {true, false}) {
-        const Surface cone = tessellate(Cylinder{{1, 2, 3}, {1, 2, 6}, up ? 2.0f : 0.0f, up ? 0.0f : 2.0f, 24});
+        const Surface cone =
+            tessellate(Cylinder{{1, 2, 3}, {1, 2, 6}, up ? 2.0f : 0.0f, up ? 0.0f : 2.0f, 24});
         EXPECT_EQ(unpaired_edges(cone), 0u);
         EXPECT_EQ(degenerate_count(cone), 0u);
         EXPECT_NEAR(volume(cone), polygon_area(24) * 4 * 3 / 3, 1e-4);
@@ -47,7 +58,9 @@ TEST(Revolution, AConeHasAThirdOfTheVolume) {
 
 TEST(Revolution, AClosedLatheIsWatertightAndFacesOutward) {
     // A goblet: out along the foot, up the outside, down the inside.
-    const Lathe goblet{{0.3f, -0.2f, 0.1f}, {{0, 0}, {0.5f, 0}, {0.1f, 0.1f}, {0.1f, 1}, {0.6f, 1.5f}, {0.55f, 1.5f}, {0, 1.05f}}, 31};
+    const Lathe goblet{{0.3f, -0.2f, 0.1f},
+                       {{0, 0}, {0.5f, 0}, {0.1f, 0.1f}, {0.1f, 1}, {0.6f, 1.5f}, {0.55f, 1.5f}, {0, 1.05f}},
+                       31};
     const Surface surface = tessellate(goblet);
     EXPECT_EQ(surface.triangles.size(), triangle_count(goblet));
     EXPECT_EQ(unpaired_edges(surface), 0u);
@@ -55,7 +68,8 @@ TEST(Revolution, AClosedLatheIsWatertightAndFacesOutward) {
     // Sum of frustums with sign: pi h (a^2 + a b + b^2) / 3, a polygon in place of the circle.
     double expected = 0;
     for (std::size_t i = 0; i + 1 < goblet.profile.size(); ++i) {
-        const double a = goblet.profile[i][0], b = goblet.profile[i + 1][0], h = goblet.profile[i + 1][1] - goblet.profile[i][1];
+        const double a = goblet.profile[i][0], b = goblet.profile[i + 1][0],
+                     h = goblet.profile[i + 1][1] - goblet.profile[i][1];
         expected += polygon_area(31) * h * (a * a + a * b + b * b) / 3;
     }
     EXPECT_GT(expected, 0);
@@ -94,8 +108,10 @@ TEST(Revolution, NormalsAreUnitAndPointOutward) {
 }
 
 TEST(Revolution, AFlatOneHasNoNormals) {
-    for (const Vec3 n : tessellate(Lathe{{}, {{0, 0}, {1, 0}, {0, 1}}, 3, false}).normals) EXPECT_EQ(n, Vec3{});
-    for (const Vec3 n : tessellate(Cylinder{{0, 0, 0}, {0, 0, 1}, 1, 1, 3, false}).normals) EXPECT_EQ(n, Vec3{});
+    for (const Vec3 n : tessellate(Lathe{{}, {{0, 0}, {1, 0}, {0, 1}}, 3, false}).normals)
+        EXPECT_EQ(n, Vec3{});
+    for (const Vec3 n : tessellate(Cylinder{{0, 0, 0}, {0, 0, 1}, 1, 1, 3, false}).normals)
+        EXPECT_EQ(n, Vec3{});
 }
 
 TEST(Ripple, AClosedOneIsWatertightAndHoldsTheWaterBelowIt) {
@@ -135,12 +151,17 @@ TEST(Patch, MeetsItsCornersAndIsBilinearBetween) {
     EXPECT_EQ(surface.vertices.back(), (Vec3{2, 2, 4}));
     EXPECT_EQ(surface.vertices[7], (Vec3{1, 1, 1}));  // The middle: the mean of the corners.
     for (const auto& [a, b, c] : surface.triangles)
-        EXPECT_GT(cross(surface.vertices[b] - surface.vertices[a], surface.vertices[c] - surface.vertices[a]).z, 0);
+        EXPECT_GT(
+            cross(surface.vertices[b] - surface.vertices[a], surface.vertices[c] - surface.vertices[a]).z, 0);
 }
 
 TEST(Instances, AreTheObjectTurnedThenMoved) {
-    std::string text = SceneText{.shapes = R"({"type": "instances", "object": "o", "at": [[10, 20, 30], [0, 0, 5, 90]]})"}.text();
-    text.insert(1, R"("objects": {"o": [{"type": "box", "material": "white", "min": [1, 0, 0], "max": [3, 1, 1]}]}, )");
+    std::string text =
+        SceneText{.shapes = R"({"type": "instances", "object": "o", "at": [[10, 20, 30], [0, 0, 5, 90]]})"}
+            .text();
+    text.insert(
+        1,
+        R"("objects": {"o": [{"type": "box", "material": "white", "min": [1, 0, 0], "max": [3, 1, 1]}]}, )");
     const Scene scene = parse(text);
     ASSERT_EQ(scene.triangles.size(), 24u);
     const Bounds3 first = trace::bounds_of(std::span(scene.vertices).first(scene.vertices.size() / 2));
@@ -156,12 +177,16 @@ TEST(Instances, AreTheObjectTurnedThenMoved) {
 TEST(Instances, UnknownAndNestedObjectsAreRefused) {
     const std::string place = R"({"type": "instances", "object": "chiar", "at": [[0, 0, 0]]})";
     std::string text = SceneText{.shapes = place}.text();
-    EXPECT_EQ(refusal(text), "t.json: shapes[0].object: found \"chiar\", expected an object, and the scene has none");
+    EXPECT_EQ(refusal(text),
+              "t.json: shapes[0].object: found \"chiar\", expected an object, and the scene has none");
     std::string nested = text;
     nested.insert(1, R"("objects": {"chair": [)" + place + "]}, ");
-    EXPECT_EQ(refusal(nested),
-              "t.json: objects.chair[0].type: found \"instances\", expected a shape that is not made of objects");
-    text.insert(1, R"("objects": {"chair": [{"type": "box", "material": "white", "min": [0, 0, 0], "max": [1, 1, 1]}]}, )");
+    EXPECT_EQ(
+        refusal(nested),
+        "t.json: objects.chair[0].type: found \"instances\", expected a shape that is not made of objects");
+    text.insert(
+        1,
+        R"("objects": {"chair": [{"type": "box", "material": "white", "min": [0, 0, 0], "max": [1, 1, 1]}]}, )");
     EXPECT_EQ(refusal(text), "t.json: shapes[0].object: found unknown object \"chiar\", expected \"chair\"");
 }
 

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -29,7 +31,10 @@ ImportedScene small_scene() {
                        {.name = "lacquer", .kind = MaterialKind::glossy, .diffuse = {0.5f, 0, 0}, .specular = {0.25f, 0.25f, 0.25f}, .exponent = 20},
                        {.name = "glass", .kind = MaterialKind::dielectric, .diffuse = {}, .index_of_refraction = 1.25f},
                        {.name = "silver", .kind = MaterialKind::mirror, .diffuse = {}, .specular = {0.9f, 0.8f, 0.7f}}};
-    for (std::uint32_t m = 0; m < 4; ++m) scene.meshes.push_back({m, tessellate(Box{{m * 2.f, 0, 0}, {m * 2.f + 1, 1, 1}})});
+    for (std::uint32_t m = 0; m < 4; ++m) {
+        const float x = 2 * static_cast<float>(m);
+        scene.meshes.push_back({m, tessellate(Box{{x, 0, 0}, {x + 1, 1, 1}})});
+    }
     scene.meshes.push_back({0, tessellate(Sphere{{0, 5, 0}, 1, 8})});
     ImportedLight rectangle;
     rectangle.corner = {0, 0, 3};
@@ -77,13 +82,30 @@ TEST(SceneFile, TheLoaderReadsWhatWasWritten) {
     }
 }
 
+TEST(SceneFile, AnyFirstByteOfTheFirstVertexIsReadBack) {
+    for (const std::uint32_t low : {0x09u, 0x0au, 0x0du, 0x20u, 0x00u}) {
+        const Scratch scratch;
+        ImportedScene scene = small_scene();
+        scene.meshes.resize(1);
+        scene.lights.resize(1);
+        for (Vec3& p : scene.meshes[0].surface.vertices)
+            p.x = std::bit_cast<float>((std::bit_cast<std::uint32_t>(p.x + 1) & ~0xffu) | low);
+        write_scene(scene, scratch / "out");
+        const Scene read = load_scene((scratch / "out/scene.json").string());
+        ASSERT_EQ(read.triangles.size(), 12u + 2) << low;
+        EXPECT_EQ(read.vertices[read.triangles[0][0]], scene.meshes[0].surface.vertices[scene.meshes[0].surface.triangles[0][0]]);
+    }
+}
+
 TEST(SceneFile, TheSameSceneIsTheSameBytes) {
     const Scratch scratch;
     write_scene(small_scene(), scratch / "a");
     write_scene(small_scene(), scratch / "b");
     for (const auto& entry : fs::recursive_directory_iterator(scratch / "a"))
-        if (entry.is_regular_file())
-            EXPECT_EQ(trace::read_file(entry.path()), trace::read_file(scratch / "b" / fs::relative(entry.path(), scratch / "a")));
+        if (entry.is_regular_file()) {
+            const fs::path other = scratch / "b" / fs::relative(entry.path(), scratch / "a");
+            EXPECT_EQ(trace::read_file(entry.path()), trace::read_file(other));
+        }
 }
 
 TEST(SceneFile, AFolderThatHoldsSomethingIsNotReplacedUnlessForced) {

@@ -17,8 +17,8 @@ namespace {
 
 /// Cases that need a full run: in a quick one hardly a photon or a path comes through.
 bool needs_full_run(const std::string& name) {
-    return name.find("keyhole of 0.0001") == 0 || name.find("keyhole of 1e-05") == 0 || name.find("albedo 0.9999, path") != name.npos ||
-           name.find("infinite radiance") != name.npos;
+    return name.find("keyhole of 0.0001") == 0 || name.find("keyhole of 1e-05") == 0 ||
+           name.find("albedo 0.9999, path") != name.npos || name.find("infinite radiance") != name.npos;
 }
 
 class Group : public testing::TestWithParam<const CaseGroup*> {};
@@ -27,8 +27,9 @@ TEST_P(Group, HoldsItsBounds) {
     for (const Case& one : GetParam()->cases()) {
         if (one.timed || needs_full_run(one.name)) continue;
         const results::StabilityRow row = run_case(*GetParam(), one, Effort::quick);
-        EXPECT_TRUE(row.passed.value()) << one.name << ": " << one.quantity << " " << row.error.value_or(NAN) << ", allowed "
-                                        << row.allowed_error.value_or(NAN) << " (" << row.reason << ")";
+        EXPECT_TRUE(row.passed.value())
+            << one.name << ": " << one.quantity << " " << row.error.value_or(NAN) << ", allowed "
+            << row.allowed_error.value_or(NAN) << " (" << row.reason << ")";
     }
 }
 
@@ -93,9 +94,11 @@ TEST(ChiSquared, HasTheTabulatedTails) {
 }
 
 TEST(ChiSquared, ComparesCountsCellByCell) {
-    const double due[] = {10, 20, 30, 0}, same[] = {10, 20, 30, 0}, other[] = {20, 20, 20, 0}, impossible[] = {10, 20, 29, 1};
+    const double due[] = {10, 20, 30, 0}, same[] = {10, 20, 30, 0}, other[] = {20, 20, 20, 0},
+                 impossible[] = {10, 20, 29, 1};
     EXPECT_EQ(chi_squared_p(same, due), 1);
-    EXPECT_NEAR(chi_squared_p(other, due), std::exp(-(10.0 + 100.0 / 30) / 2), 1e-12);  // two degrees of freedom
+    EXPECT_NEAR(chi_squared_p(other, due), std::exp(-(10.0 + 100.0 / 30) / 2),
+                1e-12);  // two degrees of freedom
     EXPECT_EQ(chi_squared_p(impossible, due), 0);
 }
 
@@ -111,9 +114,11 @@ TEST(HalfVectorLobe, FindsThePlaceThatADirectionIsFrom) {
             for (const double u : {0.3, 0.7, 0.95}) {
                 const double v = 0.1;
                 const auto sample = lobe.at(u, v);
-                ASSERT_EQ(sample.along > 0 && sample.direction[2] > 0, u > lobe.least_u(v)) << degrees << " " << exponent << " " << u;
+                ASSERT_EQ(sample.along > 0 && sample.direction[2] > 0, u > lobe.least_u(v))
+                    << degrees << " " << exponent << " " << u;
                 if (u <= lobe.least_u(v)) continue;
-                const auto [back_u, back_v] = lobe.place_of({static_cast<float>(sample.direction[0]), static_cast<float>(sample.direction[1]),
+                const auto [back_u, back_v] = lobe.place_of({static_cast<float>(sample.direction[0]),
+                                                             static_cast<float>(sample.direction[1]),
                                                              static_cast<float>(sample.direction[2])});
                 EXPECT_NEAR(back_u, u, 2e-3) << degrees << " " << exponent;
                 EXPECT_NEAR(back_v, v, 2e-3) << degrees << " " << exponent;
@@ -125,7 +130,8 @@ TEST(Room, IsClosedAndFacesInwards) {
     const Room room = furnace(0.5);
     const trace::Vec3 middle{0.5f, 0.5f, 0.5f};
     for (const auto& t : room.scene.triangles) {
-        const trace::Vec3 a = room.scene.vertices[t[0]], b = room.scene.vertices[t[1]], c = room.scene.vertices[t[2]];
+        const trace::Vec3 a = room.scene.vertices[t[0]], b = room.scene.vertices[t[1]],
+                          c = room.scene.vertices[t[2]];
         EXPECT_GT(dot(cross(b - a, c - a), middle - a), 0);
     }
     EXPECT_EQ(room.scene.triangles.size(), 12u);

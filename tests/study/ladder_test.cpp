@@ -1,0 +1,49 @@
+// Ladders: the built-in ones vary one thing each, and files are read or refused.
+#include "study/ladder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "trace/error.h"
+
+namespace regather::study {
+namespace {
+
+TEST(DefaultLadder, HoldsWhatItDoesNotVary) {
+    std::map<std::string, std::set<std::uint32_t>> photons, k;
+    for (const Setting& setting : default_ladder(2, false)) {
+        photons[setting.ladder].insert(setting.photons);
+        k[setting.ladder].insert(setting.k);
+        EXPECT_EQ(setting.caustic_photons, 0u);
+        if (setting.ladder == "direct-both") EXPECT_NEAR(setting.k, std::sqrt(setting.photons), 1);
+        if (setting.ladder == "radius") EXPECT_LE(setting.radius, 0.2);
+    }
+    EXPECT_EQ(k["direct-photons"].size(), 1u);
+    EXPECT_EQ(photons["direct-photons"].size(), 8u);
+    EXPECT_EQ(photons["direct-k"].size(), 1u);
+    EXPECT_EQ(k["direct-k"].size(), 8u);
+    EXPECT_EQ(photons.count("caustic-photons"), 0u);
+}
+
+TEST(ParseLadder, EmptyCellsTakeTheDefaults) {
+    const auto found = parse_ladder("ladder,mode,k,radius\nmine,direct,7,\nmine,,,0.5\n", "l.csv");
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_EQ(found[0].mode, capture::Visualisation::direct);
+    EXPECT_EQ(found[0].k, 7u);
+    EXPECT_TRUE(std::isinf(found[0].radius));
+    EXPECT_EQ(found[1].mode, capture::Visualisation::final_gather);
+    EXPECT_EQ(found[1].k, Setting().k);
+    EXPECT_EQ(found[1].radius, 0.5);
+}
+
+TEST(ParseLadder, RefusesWhatNoRendererCanDo) {
+    for (const char* text : {"ladder,k\nmine,0\n", "ladder,mode\nmine,fast\n", "ladder\n", "k\n5\n", "ladder,radius\nmine,0\n",
+                             "ladder,k\n,5\n"})
+        EXPECT_THROW(parse_ladder(text, "l.csv"), trace::DataError) << text;
+}
+
+}  // namespace
+}  // namespace regather::study
