@@ -9,7 +9,7 @@
 
 #include "scenes/home.h"
 #include "scenes/scene_file.h"
-#include "scenes/zip.h"
+#include "scenes/archive.h"
 
 namespace regather::scenes {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "scenes/zip.h"
+#include "scenes/archive.h"
 
 namespace regather::scenes {
 

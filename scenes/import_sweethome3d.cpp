@@ -12,7 +12,7 @@
 #include "scenes/home.h"
 #include "scenes/polygon.h"
 #include "scenes/wall.h"
-#include "scenes/zip.h"
+#include "scenes/archive.h"
 #include "trace/error.h"
 #include "trace/word.h"
 

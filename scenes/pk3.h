@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/zip.h"
+#include "scenes/archive.h"
 
 namespace regather::scenes {
 

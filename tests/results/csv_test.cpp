@@ -95,6 +95,9 @@ struct Filler {
     void operator()(Seconds<R> seconds) const {
         if (*rc::gen::arbitrary<bool>()) row.*seconds.field = *rc::gen::inRange(0, 100000000) / 1e6;
     }
+    void operator()(SignedReal<R> real) const {
+        if (*rc::gen::arbitrary<bool>()) row.*real.field = *rc::gen::arbitrary<double>();
+    }
     void operator()(Real<R> real) const {
         if (*rc::gen::arbitrary<bool>()) row.*real.field = std::abs(*rc::gen::arbitrary<double>());
     }
@@ -114,7 +117,7 @@ struct Same {
 
 template <class R>
 class CsvOf : public testing::Test {};
-using Kinds = testing::Types<Row, DetailRow, TimelineRow, SamplingRow>;
+using Kinds = testing::Types<Row, DetailRow, TimelineRow, SamplingRow, ConvergenceRow, StabilityRow>;
 TYPED_TEST_SUITE(CsvOf, Kinds);
 
 TYPED_TEST(CsvOf, GivesBackEveryColumnOfAnyRows) {

@@ -16,7 +16,7 @@
 #include "scenes/loader.h"
 #include "scenes/map_material.h"
 #include "scenes/texture_colour.h"
-#include "scenes/zip.h"
+#include "scenes/archive.h"
 #include "tests/scenes/bsp_text.h"
 #include "trace/error.h"
 

@@ -84,7 +84,7 @@ TEST(Needs, GlossNeedsLobesUnlessItsSpecularPartIsZero) {
 }
 
 TEST(Needs, EveryReasonIsASentence) {
-    const Needs needs = needs_of(load_scene("room"));
+    const Needs needs = needs_of(load_scene("house"));
     for (const Need* need : needs.list()) {
         EXPECT_TRUE(need->needed) << need->part;
         EXPECT_EQ(need->reason.back(), '.') << need->reason;

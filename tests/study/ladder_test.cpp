@@ -18,8 +18,12 @@ TEST(DefaultLadder, HoldsWhatItDoesNotVary) {
         photons[setting.ladder].insert(setting.photons);
         k[setting.ladder].insert(setting.k);
         EXPECT_EQ(setting.caustic_photons, 0u);
-        if (setting.ladder == "direct-both") EXPECT_NEAR(setting.k, std::sqrt(setting.photons), 1);
-        if (setting.ladder == "radius") EXPECT_LE(setting.radius, 0.2);
+        if (setting.ladder == "direct-both") {
+            EXPECT_NEAR(setting.k, std::sqrt(setting.photons), 1);
+        }
+        if (setting.ladder == "radius") {
+            EXPECT_LE(setting.radius, 0.2);
+        }
     }
     EXPECT_EQ(k["direct-photons"].size(), 1u);
     EXPECT_EQ(photons["direct-photons"].size(), 8u);

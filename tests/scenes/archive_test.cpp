@@ -1,4 +1,4 @@
-#include "scenes/zip.h"
+#include "scenes/archive.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

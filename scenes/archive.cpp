@@ -1,4 +1,4 @@
-#include "scenes/zip.h"
+#include "scenes/archive.h"
 
 #include <fmt/format.h>
 #include <zip.h>

@@ -1,4 +1,4 @@
-// scenes/zip.h -- zip archives (.zip, .jar, .sh3d, .sh3f, .pk3), read with libzip. Only what an entry really holds is
+// scenes/archive.h -- zip archives (.zip, .jar, .sh3d, .sh3f, .pk3), read with libzip. Only what an entry really holds is
 // kept in memory, and never more than the caller allows: an entry may declare any size.
 #pragma once
 #include <cstdint>
