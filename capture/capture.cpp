@@ -15,7 +15,7 @@ namespace regather::capture {
 namespace {
 
 constexpr std::uint64_t batch_rays = 1 << 19;  // gather and shadow rays held at once
-constexpr std::uint32_t caustic_paths_per_photon = 50;
+constexpr std::uint32_t caustic_paths_per_photon = 25;
 
 class Clock {
 public:

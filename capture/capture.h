@@ -24,7 +24,7 @@ namespace regather::capture {
 /// The caustic map: photons that specular surfaces, and nothing else, have turned between light and store (Jensen 2001,
 /// section 9.1: LS+D paths), gathered at every eye-visible surface. Not built for a scene without need of it.
 struct CausticConfig {
-    std::uint32_t photons = 200'000, k = 60;
+    std::uint32_t photons = 100'000, k = 60;
     float radius = std::numeric_limits<float>::infinity();  ///< [scene units]
     Filter filter = Filter::cone;
 };

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t most_specular_in_a_row = 10'000;
 // Rounds of 32 blocks begin small and grow: where walls reflect nearly all, a few paths make all photons.
-constexpr std::uint64_t first_block_paths = 16, most_block_paths = 2048, round_blocks = 32, extra_paths = 1'000'000;
+constexpr std::uint64_t first_block_paths = 16, most_block_paths = 2048, round_blocks = 32, extra_paths = 100'000;
 
 void add(Power& sum, Vec3 power) {
     for (int c = 0; c < 3; ++c) sum[static_cast<std::size_t>(c)] += static_cast<double>(power[c]);

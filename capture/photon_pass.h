@@ -23,7 +23,7 @@ struct PhotonConfig {
     std::uint32_t photons = 1'000'000;  ///< To store; the paper, Table 1.
     std::uint64_t seed = 1;
     PhotonKind kind = PhotonKind::all;
-    std::uint32_t paths_per_photon = 100;  ///< With 1,000,000 more, the most that are traced for each photon asked for.
+    std::uint32_t paths_per_photon = 100;  ///< With 100,000 more, the most that are traced for each photon asked for.
 };
 
 using Power = std::array<double, 3>;  ///< [W] per RGB channel.

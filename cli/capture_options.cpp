@@ -31,7 +31,7 @@ Enum chosen(const std::string& word, const std::array<const char*, n>& names, co
 }
 float length(double value, const char* what) {
     if (!std::isfinite(value) || value < 0)
-        throw trace::UsageError(fmt::format("{}: found {}, expected a finite length, or 0: unlimited", what, value));
+        throw trace::UsageError(fmt::format("{}: found {}, expected a finite number, or 0: unlimited", what, value));
     return value > 0 ? static_cast<float>(value) : std::numeric_limits<float>::infinity();
 }
 
@@ -97,9 +97,9 @@ capture::CaptureConfig CaptureOptions::config() const {
                      .samples = samples, .jitter = false,
                      .visualisation = chosen<capture::Visualisation>(mode, capture::visualisation_names, "mode"), .seed = seed};
     config.photon = {.photons = photons, .seed = seed};
-    config.gather = {.k = k, .radius = length(radius, "radius"),
+    config.gather = {.k = k, .radius = length(radius, "--radius"),
                      .filter = chosen<capture::Filter>(filter, capture::filter_names, "filter"), .surface_check = surface_check};
-    config.caustic = {.photons = caustic_photons, .k = caustic_k, .radius = length(caustic_radius, "caustic_radius"),
+    config.caustic = {.photons = caustic_photons, .k = caustic_k, .radius = length(caustic_radius, "--caustic-radius"),
                       .filter = chosen<capture::Filter>(caustic_filter, capture::filter_names, "caustic_filter")};
     config.keep = {keep.begin(), keep.end()};
     tone_curve();

@@ -19,7 +19,7 @@ struct CaptureOptions {
     double radius = 0;  ///< [scene units]; 0: unlimited
     std::string mode = "final-gather", filter = "none";  ///< capture::visualisation_names, capture::filter_names
     bool surface_check = true;
-    std::uint32_t caustic_photons = 200'000, caustic_k = 60;
+    std::uint32_t caustic_photons = 100'000, caustic_k = 60;
     double caustic_radius = 0;  ///< [scene units]; 0: unlimited
     std::string caustic_filter = "cone";
     std::vector<std::string> keep;  ///< Parts that the scene has no need of.

@@ -42,12 +42,12 @@ double mean_estimate(std::uint32_t k, float radius, Filter filter, int seeds) {
 
 TEST(RadianceEstimate, OfEvenPhotonsIsTheirPowerOverTheAreaWhateverKRadiusAndFilter) {
     // 2000 photons on 4 m^2; a white floor sends irradiance / pi. A full set of k has relative standard deviation 1 / sqrt(k - 2),
-    // a fixed radius 1 / sqrt(k): over 2000 maps at most 0.013 here, and 1.4 times that under a filter; 4 sigma.
+    // a fixed radius 1 / sqrt(k): over 1000 maps at most 0.018 here, and 1.4 times that under a filter; 4 sigma.
     const double truth = 2000.0 * decoded_watts / 4 / std::numbers::pi;
     for (const Filter filter : {Filter::none, Filter::cone, Filter::gaussian}) {
-        EXPECT_NEAR(mean_estimate(5, std::numeric_limits<float>::infinity(), filter, 2000) / truth, 1, 0.06) << filter_names[static_cast<std::size_t>(filter)];
-        EXPECT_NEAR(mean_estimate(40, std::numeric_limits<float>::infinity(), filter, 1000) / truth, 1, 0.03);
-        EXPECT_NEAR(mean_estimate(2000, 0.15f, filter, 1000) / truth, 1, 0.03);
+        EXPECT_NEAR(mean_estimate(5, std::numeric_limits<float>::infinity(), filter, 1000) / truth, 1, 0.08) << filter_names[static_cast<std::size_t>(filter)];
+        EXPECT_NEAR(mean_estimate(40, std::numeric_limits<float>::infinity(), filter, 400) / truth, 1, 0.05);
+        EXPECT_NEAR(mean_estimate(2000, 0.15f, filter, 400) / truth, 1, 0.05);
     }
 }
 

@@ -168,6 +168,8 @@ TYPED_TEST(CsvOf, IsToldByItsHeader) {
     const RowKind kind = std::is_same_v<R, DetailRow>     ? RowKind::detail
                          : std::is_same_v<R, TimelineRow> ? RowKind::timeline
                          : std::is_same_v<R, SamplingRow> ? RowKind::sampling
+                         : std::is_same_v<R, ConvergenceRow> ? RowKind::convergence
+                         : std::is_same_v<R, StabilityRow>   ? RowKind::stability
                                                           : RowKind::measurement;
     EXPECT_EQ(row_kind(to_csv<R>({}), "mine.csv"), kind);
 }
