@@ -15,6 +15,7 @@ void add_reference(CLI::App& app);
 void add_walk(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_detail(CLI::App& app);
+void add_heatmap(CLI::App& app);
 void add_race(CLI::App& app);
 void add_sampling(CLI::App& app);
 void add_cachesim(CLI::App& app);

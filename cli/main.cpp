@@ -80,6 +80,7 @@ int main(int argc, char** argv) {
     cli::add_walk(app);
     cli::add_replay(app);
     cli::add_detail(app);
+    cli::add_heatmap(app);
     cli::add_race(app);
     cli::add_sampling(app);
     cli::add_cachesim(app);
