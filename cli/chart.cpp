@@ -102,7 +102,7 @@ void run(const Request& request) {
 std::string footer() {
     std::string out = "Kinds:\n";
     for (const auto& kind : results::chart_kinds())
-        out += fmt::format("  {:<18}{}; needs {}\n", kind.name, kind.title, kind.needs);
+        out += fmt::format("  {:<22}{}; needs {}\n", kind.name, kind.title, kind.needs);
     return out +
            "\nExamples:\n"
            "  regather chart runs/room/results.csv -o runs/room/charts\n"
