@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::uintmax_t most_file_bytes = 256u << 20;
 // A scene farther from its origin than this many of its sizes is recentred: 10 of a float's 24 bits are then lost.
-constexpr double far_in_sizes = 1024;
+constexpr double far_in_sizes = 64;
 
 double size_of(const Bounds3& bounds) {
     const Vec3 extent = bounds.extent();
