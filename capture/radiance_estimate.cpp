@@ -33,14 +33,19 @@ Vec3 weighted_sum(const spatial::PhotonKd& photons, const spatial::NearestSet& f
     const std::span<const trace::Photon> nodes = photons.nodes();
     const bool diffuse = at.material->kind == MaterialKind::diffuse;
     const float per_radius2 = 1 / radius2;
-    Vec3 sum;
+    // In double: a sum of a million floats would be off by parts in a hundred.
+    double red = 0, green = 0, blue = 0;
     for (std::size_t i = found.full() && found.size() > 1 ? 1 : 0; i < found.size(); ++i) {
         const spatial::Neighbor neighbor = found[i];
         const trace::Photon& photon = nodes[neighbor.node];
         if (!is_used(photon, at, surface_check)) continue;
         const Vec3 power = trace::decode_power(photon.power) * weight(neighbor.distance2 * per_radius2);
-        sum += diffuse ? power : brdf(*at.material, at.normal, -trace::decode_direction(photon), at.to_viewer) * power;
+        const Vec3 part = diffuse ? power : brdf(*at.material, at.normal, -trace::decode_direction(photon), at.to_viewer) * power;
+        red += static_cast<double>(part.x);
+        green += static_cast<double>(part.y);
+        blue += static_cast<double>(part.z);
     }
+    const Vec3 sum{static_cast<float>(red), static_cast<float>(green), static_cast<float>(blue)};
     return diffuse ? sum * at.material->diffuse * (1 / std::numbers::pi_v<float>) : sum;
 }
 

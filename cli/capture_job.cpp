@@ -56,12 +56,13 @@ std::optional<std::string> kept(const fs::path& folder, const Files& files, cons
 std::string capture_into(const fs::path& folder, const scenes::Scene& scene, capture::CaptureConfig config,
                          const CaptureOptions& options, bool force) {
     const Files files(folder);
+    const bool has_caustics = capture::has_caustic_map(scene, config);
     if (!force)
         if (const auto report = kept(folder, files, scene, config)) return *report;
     fs::create_directories(folder);
     trace::TraceWriter writer(files.trace, force);
     std::optional<trace::TraceWriter> caustic_writer;
-    if (capture::has_caustic_map(scene, config)) {
+    if (has_caustics) {
         caustic_writer.emplace(files.caustic_trace, true);  // without the other it is no finished capture
     } else {
         fs::remove_all(files.caustic_trace);

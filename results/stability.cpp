@@ -72,7 +72,7 @@ Chart stability(const ChartKind& kind, const Rows& rows, const ChartOptions&) {
         "set lmargin at screen 0.42\nset rmargin at screen 0.80\nset tmargin at screen {:.4f}\nset bmargin "
         "at screen {:.4f}\n"
         "set logscale x\nset xrange [{}:2000]\nset yrange [0.3:{}]\nset format x '10^{{%T}}'\nset xtics 1e3\n"
-        "set ytics ({}) scale 0 font 'DejaVu Sans,10'\nset grid xtics ytics lc rgb '#e0e0e0'\nset border 3 "
+        "set ytics ({}) scale 0 noenhanced font 'DejaVu Sans,10'\nset grid xtics ytics lc rgb '#e0e0e0'\nset border 3 "
         "lc rgb '#808080'\n"
         "set tics nomirror\nset xlabel 'error'\nset key at screen 0.8,{:.4f} right bottom horizontal font "
         "'DejaVu Sans,11'\n",
