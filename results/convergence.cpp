@@ -137,6 +137,7 @@ Chart over_time(const ChartKind& kind, const Rows& rows, const OverTime& what) {
         plate.label = what.label;
         plate.height = heights[1 - p].empty() ? 270 : 190;
         plate.vertical = log_scale(both, plain_number);  // the same for both, so that heights may be compared
+        plate.vertical.high *= 1.3;                      // so that no tick's label meets the plate's name
         if (what.with_reference && floors.size() == 1)
             plate.lines.push_back(level(*floors.begin(), figure.horizontal, "error of the reference"));
         figure.plates.push_back(std::move(plate));
@@ -260,7 +261,7 @@ Chart bias_chart(const ChartKind& kind, const Rows& rows, Varied varied, std::st
             plate.lines.push_back(std::move(line));
         }
         if (heights.empty()) continue;
-        if (lost > 0) plate.remark = fmt::format("{} points not told apart from 0", lost);
+        if (lost > 0) plate.remark = fmt::format("{} not told apart from 0", lost == 1 ? "1 point" : fmt::format("{} points", lost));
         plate.vertical = log_scale(heights, plain_number);
         for (Line& line : expected) {  // only where the panel is
             std::erase_if(line.points, [&](const Point& p) {
