@@ -172,6 +172,9 @@ void Hierarchy::prefetch(const Wish& wish) {
     const Line line{next};
     Level& here = levels_[wish.level];
     if (peek(here, line)) return;
+    // An exclusive level takes nothing that a level above holds and will hand down.
+    for (std::size_t level = wish.level; level > 0 && levels_[level].is(Inclusion::exclusive); --level)
+        if (peek(levels_[level - 1], line)) return;
     const auto all = static_cast<Sectors>((std::uint64_t{1} << (line_bytes_ >> sector_shift_)) - 1);
     const Supply below = fetch(wish.level + 1, line, all, {wish.region, false});
     LevelStats& stats = here.of(wish.region);
@@ -203,11 +206,13 @@ void Hierarchy::write_back(std::size_t level, Line line, Sectors dirty, trace::R
         }
     } else if (!passes_misses(here.config)) {
         LineState brought{.valid = dirty, .dirty = through ? 0 : dirty, .owner = writer, .writer = writer};
-        if (exclusive(level + 1)) {
-            if (const std::optional<LineState> below = take(levels_[level + 1], line)) {
-                here.of(writer).bytes_in += bytes_of(below->valid & ~dirty);
-                brought.valid |= below->valid;
-                brought.dirty |= below->dirty;
+        // Exclusive levels that follow one another hold a line once: whichever has it gives it up.
+        for (std::size_t below = level + 1; exclusive(below); ++below) {
+            if (const std::optional<LineState> held = take(levels_[below], line)) {
+                here.of(writer).bytes_in += bytes_of(held->valid & ~dirty);
+                brought.valid |= held->valid;
+                brought.dirty |= held->dirty;
+                break;
             }
         }
         insert(level, line, brought);
