@@ -103,7 +103,7 @@ TEST(Convergence, BiasIsDrawnWithItsBarAndTheExpectedLine) {
     ASSERT_EQ(chart.skipped, "");
     EXPECT_EQ(data_of(chart, "$line_0", "direct-photons"), "100 20\n400 5\n");
     EXPECT_THAT(chart.commands, HasSubstr("400 5 4.8989"));
-    EXPECT_THAT(chart.commands, HasSubstr("1 points not told apart from 0"));
+    EXPECT_THAT(chart.commands, HasSubstr("1 point not told apart from 0"));
     EXPECT_THAT(data_of(chart, "$line_0", "as theory expects, from the first point"), HasSubstr("100 20\n400 5\n"));
     EXPECT_THAT(compose("bias-by-k", {{}, {}, {}, {}, rows}).skipped, HasSubstr("with the photons held"));
 }
