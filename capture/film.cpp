@@ -5,8 +5,6 @@
 namespace regather::capture {
 namespace {
 
-double luminance(const std::array<double, 3>& rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
-
 Vec3 to_float(const std::array<double, 3>& rgb) {
     return {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])};
 }
@@ -73,7 +71,7 @@ void Film::add(const PixelWork& work, const Gathered& gathered, const Gathered& 
             queries += global.take(first_pixel + i, s, add_estimate) + caustic.take(first_pixel + i, s, add_estimate);
             double light = 0;
             for (std::size_t l = 0; l < sums.size(); ++l) {
-                light += luminance(sums[l]);
+                light += luminance(sums[l][0], sums[l][1], sums[l][2]);
                 for (std::size_t c = 0; c < 3; ++c) pixel[l][c] += sums[l][c];
             }
             const double step = light - mean;

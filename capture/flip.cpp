@@ -286,21 +286,21 @@ std::vector<float> ldr_flip(const Image& image, const Image& reference, double p
 }
 
 Exposures flip_exposures(const Image& reference) {
-    std::vector<double> luminance;
-    luminance.reserve(reference.pixels.size());
+    std::vector<double> values;
+    values.reserve(reference.pixels.size());
     for (const trace::Vec3 p : reference.pixels)
-        luminance.push_back(0.2126 * std::max(p.x, 0.0f) + 0.7152 * std::max(p.y, 0.0f) + 0.0722 * std::max(p.z, 0.0f));
-    std::sort(luminance.begin(), luminance.end());
-    if (luminance.empty() || luminance.back() <= 0) return {0, 0, 1};
-    const std::size_t half = luminance.size() / 2;
-    double median = luminance.size() % 2 == 1 ? luminance[half] : (luminance[half - 1] + luminance[half]) / 2;
-    if (median <= 0) median = *std::find_if(luminance.begin(), luminance.end(), [](double v) { return v > 0; });
+        values.push_back(luminance(std::max(p.x, 0.0f), std::max(p.y, 0.0f), std::max(p.z, 0.0f)));
+    std::sort(values.begin(), values.end());
+    if (values.empty() || values.back() <= 0) return {0, 0, 1};
+    const std::size_t half = values.size() / 2;
+    double median = values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+    if (median <= 0) median = *std::find_if(values.begin(), values.end(), [](double v) { return v > 0; });
 
     // Where the curve is 0.85: the positive root of (k0 - 0.85 k3) x^2 + (k1 - 0.85 k4) x - 0.85 k5.
     constexpr double t = 0.85;
     const double half_b = 0.5 * (k1 - t * k4) / (k0 - t * k3), c = -t * k5 / (k0 - t * k3);
     const double root = -half_b + std::sqrt(half_b * half_b - c);
-    Exposures out{std::log2(root / luminance.back()), std::log2(root / median), 0};
+    Exposures out{std::log2(root / values.back()), std::log2(root / median), 0};
     out.count = static_cast<unsigned>(std::max(2.0, std::ceil(out.stop - out.start)));
     return out;
 }

@@ -87,12 +87,16 @@ void write_png(const fs::path& path, const Image& image, float exposure, Tone to
             const float shown = to_srgb(toned(std::max(0.0f, p[c] * exposure), tone));
             values.push_back(static_cast<std::uint8_t>(std::clamp(shown * 255 + 0.5f, 0.0f, 255.0f)));
         }
-    write(path, image.width, image.height, rgb, values, OIIO::TypeDesc::UINT8, "sRGB");
+    write_png(path, image.width, image.height, values);
+}
+
+void write_png(const fs::path& path, std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t> values) {
+    write(path, width, height, rgb, values, OIIO::TypeDesc::UINT8, "sRGB");
 }
 
 float middle_exposure(const Image& image) {
     double sum = 0;
-    for (trace::Vec3 p : image.pixels) sum += 0.2126 * p.x + 0.7152 * p.y + 0.0722 * p.z;
+    for (trace::Vec3 p : image.pixels) sum += luminance(p);
     const double mean = image.pixels.empty() ? 0 : sum / static_cast<double>(image.pixels.size());
     return mean > 0 ? static_cast<float>(0.2876820724517809 / mean) : 1.0f;  // 1 - exp(-x) = 0.25
 }

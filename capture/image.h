@@ -17,6 +17,10 @@ struct Image {
     std::vector<trace::Vec3> pixels;
 };
 
+/// Of linear RGB with the primaries of Rec. 709 and sRGB.
+inline double luminance(double red, double green, double blue) { return 0.2126 * red + 0.7152 * green + 0.0722 * blue; }
+inline double luminance(trace::Vec3 rgb) { return luminance(rgb.x, rgb.y, rgb.z); }
+
 /// 32-bit float EXR; written beside and renamed, so that no half image has this name. Throws
 /// std::runtime_error.
 void write_exr(const std::filesystem::path& path, const Image& image);
@@ -38,6 +42,9 @@ inline constexpr std::array<const char*, 3> tone_names{"exponential", "linear", 
 
 /// 8-bit sRGB view of radiance times `exposure`.
 void write_png(const std::filesystem::path& path, const Image& image, float exposure, Tone tone = Tone::exponential);
+
+/// 8-bit sRGB pixels, three bytes each.
+void write_png(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t> rgb);
 
 /// Exposure that takes the mean luminance of the image to a middle tone (0.25 before the sRGB curve); 1 for a black image.
 float middle_exposure(const Image& image);

@@ -1,12 +1,9 @@
 #include "capture/image_strip.h"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <stdexcept>
 #include <string_view>
 
 #include "capture/glyphs.h"
@@ -21,10 +18,6 @@ using Rgb = std::array<std::uint8_t, 3>;
 constexpr std::uint32_t least_panel = 256, margin = 10, letter_scale = 2, letter_width = 6 * letter_scale,
                         letter_height = 8 * letter_scale, text_gap = 6, bar_width = 16, tick = 5, bar_letters = 6;
 constexpr Rgb paper{255, 255, 255}, ink{32, 32, 32};
-
-double luminance(trace::Vec3 v) {
-    return 0.2126 * static_cast<double>(v.x) + 0.7152 * static_cast<double>(v.y) + 0.0722 * static_cast<double>(v.z);
-}
 
 Rgb shown(trace::Vec3 radiance, float exposure) {
     Rgb out{};
@@ -145,22 +138,10 @@ Picture image_strip(const Image& image, const Image& reference, const StripText&
 }
 
 void write_strip(const fs::path& path, const Picture& picture) {
-    const fs::path partial = path.parent_path() / fmt::format("partial-{}", path.filename().string());
-    const auto fail = [&](const std::string& what) {
-        fs::remove(partial);
-        throw std::runtime_error(fmt::format("{}: cannot write: {}", path.string(), what));
-    };
-    const auto output = OIIO::ImageOutput::create(path.string());
-    if (!output) fail(OIIO::geterror());
-    OIIO::ImageSpec spec(static_cast<int>(picture.width), static_cast<int>(picture.height), 3, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("DateTime", "");  // else OpenImageIO writes the clock into the file
-    if (!output->open(partial.string(), spec)) fail(output->geterror());
-    if (!output->write_image(OIIO::TypeDesc::UINT8, picture.pixels.data())) fail(output->geterror());
-    if (!output->close()) fail(output->geterror());
-    std::error_code error;
-    fs::rename(partial, path, error);
-    if (error) fail(error.message());
+    std::vector<std::uint8_t> rgb;
+    rgb.reserve(3 * picture.pixels.size());
+    for (const auto& pixel : picture.pixels) rgb.insert(rgb.end(), pixel.begin(), pixel.end());
+    write_png(path, picture.width, picture.height, std::move(rgb));
 }
 
 }  // namespace regather::capture

@@ -115,14 +115,7 @@ void write(const std::filesystem::path& csv, const std::vector<R>& rows, const t
 
 void attribute(const Attribution& asked) {
     check_outputs(asked);
-    std::vector<reorder::ParsedOrdering> orderings;
-    reorder::Reads reads;
-    for (const std::string& spec : asked.orders) {
-        orderings.push_back(reorder::parse_ordering(spec));
-        const reorder::Reads one = orderings.back().ordering->reads();
-        reads = {reads.direction || one.direction, reads.leaf_kd || one.leaf_kd,
-                 reads.leaf_bvh || one.leaf_bvh};
-    }
+    auto [orderings, reads] = parse_orderings(asked.orders);
     std::vector<cachesim::CacheConfig> caches;
     for (const std::string& text : asked.caches)
         for (const cachesim::CacheConfig& cache : parse_caches(text)) caches.push_back(cache);

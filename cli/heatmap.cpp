@@ -31,13 +31,7 @@ void run(const Options& options) {
             throw trace::UsageError(fmt::format("{}: exists; --force overwrites it", file.string()));
     const std::vector<cachesim::CacheConfig> caches = parse_caches(options.cache);
     if (caches.size() != 1) throw trace::UsageError(fmt::format("--cache: found {}, expected one cache", options.cache));
-    std::vector<reorder::ParsedOrdering> orderings;
-    reorder::Reads reads;
-    for (const std::string& spec : options.orders) {
-        orderings.push_back(reorder::parse_ordering(spec));
-        const reorder::Reads one = orderings.back().ordering->reads();
-        reads = {reads.direction || one.direction, reads.leaf_kd || one.leaf_kd, reads.leaf_bvh || one.leaf_bvh};
-    }
+    auto [orderings, reads] = parse_orderings(options.orders);
     trace::TraceReader trace(options.trace);
     const Measurement measurement(trace, reads, reorder::default_onchip_bytes);
     const trace::TraceInfo& info = trace.info();

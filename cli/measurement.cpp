@@ -55,6 +55,17 @@ std::string cache_text(const cachesim::CacheConfig& cache) {
                        cache.ways == cachesim::fully_associative ? "full" : std::to_string(cache.ways));
 }
 
+Orderings parse_orderings(std::span<const std::string> specs) {
+    Orderings orderings;
+    for (const std::string& spec : specs) {
+        orderings.all.push_back(reorder::parse_ordering(spec));
+        const reorder::Reads one = orderings.all.back().ordering->reads();
+        reorder::Reads& all = orderings.reads;
+        all = {all.direction || one.direction, all.leaf_kd || one.leaf_kd, all.leaf_bvh || one.leaf_bvh};
+    }
+    return orderings;
+}
+
 Measurement::Measurement(trace::TraceReader& trace, const reorder::Reads& reads, std::uint64_t onchip_bytes)
     : trace_(trace), walks_(trace), onchip_bytes_(onchip_bytes) {
     const trace::TraceInfo& info = trace.info();

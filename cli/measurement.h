@@ -22,6 +22,13 @@ namespace regather::cli {
 std::vector<cachesim::CacheConfig> parse_caches(std::string_view text);
 std::string cache_text(const cachesim::CacheConfig& cache);  ///< "131072:128:8"
 
+/// Orderings by their specs, and the columns that any of them looks at. Throws as reorder::parse_ordering().
+struct Orderings {
+    std::vector<reorder::ParsedOrdering> all;
+    reorder::Reads reads;
+};
+Orderings parse_orderings(std::span<const std::string> specs);
+
 /// How caches are measured.
 struct Method {
     bool classes = false;                      ///< Misses by Hill's classes, too.

@@ -9,6 +9,7 @@
 
 #include "cli/commands.h"
 #include "cli/contest.h"
+#include "cli/measurement.h"
 #include "cli/progress.h"
 #include "cli/version.h"
 #include "results/provenance.h"
@@ -132,14 +133,7 @@ std::string table_text(const Result& result) {
 
 void race(const Options& options) {
     if (!options.csv.empty()) results::refuse_to_overwrite(options.csv, options.force);
-    std::vector<reorder::ParsedOrdering> orderings;
-    reorder::Reads reads;
-    for (const std::string& spec : options.orders) {
-        orderings.push_back(reorder::parse_ordering(spec));
-        const reorder::Reads one = orderings.back().ordering->reads();
-        reads = {reads.direction || one.direction, reads.leaf_kd || one.leaf_kd,
-                 reads.leaf_bvh || one.leaf_bvh};
-    }
+    auto [orderings, reads] = parse_orderings(options.orders);
     const auto is_naive = [](const reorder::ParsedOrdering& ordering) {
         return ordering.spec.text == "naive";
     };

@@ -82,13 +82,7 @@ void add_replay(CLI::App& app) {
                     "  regather replay out/room/trace --reorderer ./libmine.so --cache 16K:64:full 1M:64:16");
     command->callback([options] {
         if (!options->csv.empty()) results::refuse_to_overwrite(options->csv, options->force);
-        std::vector<reorder::ParsedOrdering> orderings;
-        reorder::Reads reads;
-        for (const std::string& spec : options->orders) {
-            orderings.push_back(reorder::parse_ordering(spec));
-            const reorder::Reads one = orderings.back().ordering->reads();
-            reads = {reads.direction || one.direction, reads.leaf_kd || one.leaf_kd, reads.leaf_bvh || one.leaf_bvh};
-        }
+        auto [orderings, reads] = parse_orderings(options->orders);
         std::vector<cachesim::CacheConfig> caches;
         for (const std::string& text : options->caches)
             for (const cachesim::CacheConfig& cache : parse_caches(text)) caches.push_back(cache);

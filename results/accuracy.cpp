@@ -110,7 +110,6 @@ std::vector<Named> named(std::span<const Accuracy> all, std::vector<Row>& subjec
         for (Curve& curve : curves(rest, Axis::cache, {{1, 1, 1}, 16, 16})) {
             const std::size_t i = places[static_cast<std::size_t>(curve.rows.front() - rest.data())];
             curve.rows = {&subjects[i]};
-            curve.frames = {curve.rows};
             curve.variant = static_cast<int>(
                 std::count_if(orders.begin(), orders.begin() + static_cast<std::ptrdiff_t>(i),
                               [&](auto other) { return other->ordering == orders[i]->ordering; }));

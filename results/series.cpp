@@ -200,7 +200,7 @@ std::vector<Curve> curves(std::span<const Row> rows, Axis axis, const Slice& sli
         Curve curve = look_of(group, out, strangers, axis == Axis::tile && !group.tiled);
         settle(group, axis, curve.flat);
         curve.rows = group.rows;
-        curve.frames = group.frames;
+        if (slice.merge_frames) curve.frames = group.frames;
 
         const Row& row = *curve.rows.front();
         const auto can_tile = std::any_of(std::begin(known), std::end(known), [&](const Style& s) {

@@ -39,7 +39,7 @@ struct Curve {
     int variant = 0;               ///< Counts up among curves of one ordering; picks the dashes.
     bool flat = false;             ///< Its rows have no place on the axis (naive has no tiles): a level line.
     std::vector<const Row*> rows;  ///< Ascending along the axis; one row when flat.
-    std::vector<std::vector<const Row*>> frames;  ///< For each of `rows`: those of all frames there, by frame.
+    std::vector<std::vector<const Row*>> frames;  ///< Where frames share a curve: for each of `rows` those of all frames there, by frame.
 };
 
 /// "hilbert:tile=16,bits=10" -> "bits=10": what the columns tile and bins do not imply already.

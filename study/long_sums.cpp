@@ -2,9 +2,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "capture/compensated.h"
 #include "capture/path_tracer.h"
 #include "study/case.h"
+#include "study/compensated.h"
 
 namespace regather::study {
 namespace {
@@ -44,12 +44,12 @@ struct InDouble {
     double value() const { return sum; }
 };
 struct CompensatedFloat {
-    capture::Compensated<float> sum;
+    Compensated<float> sum;
     void add(float x) { sum += x; }
     double value() const { return sum.value(); }
 };
 struct CompensatedDouble {
-    capture::Compensated<double> sum;
+    Compensated<double> sum;
     void add(float x) { sum += double{x}; }
     double value() const { return sum.value(); }
 };
@@ -63,7 +63,7 @@ struct RunningMean {
 
 /// 1e9 times the largest float that is no power of two, then the same taken off again, with a 1 in between.
 Reading cancelled(Effort) {
-    capture::Compensated<double> sum;
+    Compensated<double> sum;
     for (int i = 0; i < 1000; ++i) {
         sum += 1e17;
         sum += 1.0;

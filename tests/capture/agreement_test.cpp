@@ -15,8 +15,6 @@ struct Mean {
     double value, error;  ///< Of the mean over the picture, and its standard error.
 };
 
-double luminance(Vec3 p) { return 0.2126 * p.x + 0.7152 * p.y + 0.0722 * p.z; }
-
 Mean over(const std::vector<double>& values) {
     double mean = 0, squares = 0;
     for (const double value : values) mean += value / static_cast<double>(values.size());
