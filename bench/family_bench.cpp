@@ -1,5 +1,6 @@
-// bench/family_bench.cpp -- every LRU cache from one pass, on the lines of `room` in naive and Hilbert order: 17 numbers of
-// sets (1 to 2^16) x 16 ways, lines of 128 bytes. Against the fast simulator of one cache run 272 times. Each checks its misses.
+// bench/family_bench.cpp -- every LRU cache from one pass, on the lines of `room` in naive and Hilbert order:
+// 17 numbers of sets (1 to 2^16) x 16 ways, lines of 128 bytes. Against the fast simulator of one cache run
+// 272 times. Each checks its misses.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -47,13 +48,14 @@ const Stream& stream(std::size_t ordering) {
     return streams[ordering];
 }
 
-/// 0: set-associative caches alone; 1: fully associative ones, too; 2: and the classes of misses. 3: likewise for the caches
-/// of 16 KB to 4 MB only.
+/// 0: set-associative caches alone; 1: fully associative ones, too; 2: and the classes of misses. 3: likewise
+/// for the caches of 16 KB to 4 MB only.
 cachesim::FamilyConfig family(std::int64_t extent) {
     cachesim::FamilyConfig config{.levels = {}, .distances = extent > 0, .conflicts = extent > 1};
     if (extent == 3) {
         for (std::uint64_t sets = 8; sets <= 1 << 15; sets *= 2)
-            config.levels.push_back({sets, static_cast<std::uint32_t>(std::min<std::uint64_t>(16, (1 << 15) / sets))});
+            config.levels.push_back(
+                {sets, static_cast<std::uint32_t>(std::min<std::uint64_t>(16, (1 << 15) / sets))});
         return config;
     }
     for (std::uint64_t sets = 1; sets <= 1 << 16; sets *= 2) config.levels.push_back({sets, 16});
@@ -63,7 +65,8 @@ cachesim::FamilyConfig family(std::int64_t extent) {
 std::uint64_t misses_alone(const Stream& of, std::uint64_t sets, std::uint32_t ways) {
     cachesim::LruCache cache({.size_bytes = sets * ways * 128, .line_bytes = 128, .ways = ways});
     for (std::size_t i = 0; i < of.lines.size(); i += 1 << 14)
-        cache.access(std::span(of.lines).subspan(i, std::min<std::size_t>(1 << 14, of.lines.size() - i)), trace::Region::photons);
+        cache.access(std::span(of.lines).subspan(i, std::min<std::size_t>(1 << 14, of.lines.size() - i)),
+                     trace::Region::photons);
     return cache.total().misses;
 }
 
@@ -73,7 +76,8 @@ void report(benchmark::State& state, const cachesim::FamilyCounts& counts) {
     state.SetLabel(orderings[static_cast<std::size_t>(state.range(0))]);
     if (!counts.levels.empty() && counts.accesses == of.lines.size())
         for (const std::uint64_t sets : {16, 1024, 4096})
-            if (counts.misses(sets, 8) != misses_alone(of, sets, 8)) state.SkipWithError("other misses than the cache alone");
+            if (counts.misses(sets, 8) != misses_alone(of, sets, 8))
+                state.SkipWithError("other misses than the cache alone");
 }
 
 void one_pass(benchmark::State& state) {
@@ -86,7 +90,10 @@ void one_pass(benchmark::State& state) {
     }
     report(state, counts);
 }
-BENCHMARK(one_pass)->ArgsProduct({{0, 1}, {0, 1, 2, 3}})->ArgNames({"order", "extent"})->Unit(benchmark::kMillisecond);
+BENCHMARK(one_pass)
+    ->ArgsProduct({{0, 1}, {0, 1, 2, 3}})
+    ->ArgNames({"order", "extent"})
+    ->Unit(benchmark::kMillisecond);
 
 void stack_distance(benchmark::State& state) {
     const Stream& of = stream(static_cast<std::size_t>(state.range(0)));
@@ -108,7 +115,8 @@ void one_pass_first_touches(benchmark::State& state) {
         replay::WalkLines lines({}, 128, photon_count);
         cachesim::LruFamily caches(family(state.range(1)));
         for (std::size_t w = 0; w + 1 < of.start.size(); ++w) {
-            const auto first = lines.first(std::span(of.lines).subspan(of.start[w], of.start[w + 1] - of.start[w]));
+            const auto first =
+                lines.first(std::span(of.lines).subspan(of.start[w], of.start[w + 1] - of.start[w]));
             caches.access_first(first.lines, first.last_rank);
         }
         counts = caches.counts();
@@ -116,7 +124,10 @@ void one_pass_first_touches(benchmark::State& state) {
     report(state, counts);
     state.counters["first"] = static_cast<double>(counts.accesses) / static_cast<double>(of.lines.size());
 }
-BENCHMARK(one_pass_first_touches)->ArgsProduct({{0, 1}, {0, 1, 2, 3}})->ArgNames({"order", "extent"})->Unit(benchmark::kMillisecond);
+BENCHMARK(one_pass_first_touches)
+    ->ArgsProduct({{0, 1}, {0, 1, 2, 3}})
+    ->ArgNames({"order", "extent"})
+    ->Unit(benchmark::kMillisecond);
 
 void first_touches_only(benchmark::State& state) {
     const Stream& of = stream(static_cast<std::size_t>(state.range(0)));
@@ -124,7 +135,8 @@ void first_touches_only(benchmark::State& state) {
     for (auto unused : state) {
         replay::WalkLines lines({}, 128, photon_count);
         for (std::size_t w = 0; w + 1 < of.start.size(); ++w)
-            sum += lines.first(std::span(of.lines).subspan(of.start[w], of.start[w + 1] - of.start[w])).lines.size();
+            sum += lines.first(std::span(of.lines).subspan(of.start[w], of.start[w + 1] - of.start[w]))
+                       .lines.size();
     }
     benchmark::DoNotOptimize(sum);
     report(state, {});

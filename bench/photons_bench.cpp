@@ -1,5 +1,5 @@
-// bench/photons_bench.cpp -- one million photons of `room`: tracing them, and building the left-balanced tree. On all cores;
-// seconds of CPU are those of all threads.
+// bench/photons_bench.cpp -- one million photons of `room`: tracing them, and building the left-balanced
+// tree. On all cores; seconds of CPU are those of all threads.
 #include <benchmark/benchmark.h>
 
 #include "capture/photon_pass.h"
@@ -15,7 +15,9 @@ struct Room {
     scenes::Scene scene = scenes::load_scene("room");
     capture::RayCaster caster{scene};
     capture::LightSampler lights{scene};
-    capture::PhotonPass trace() const { return capture::trace_photons(scene, caster, lights, {.photons = photon_count, .seed = 1}); }
+    capture::PhotonPass trace() const {
+        return capture::trace_photons(scene, caster, lights, {.photons = photon_count, .seed = 1});
+    }
 };
 const Room& room() {
     static const Room instance;
@@ -37,12 +39,17 @@ void left_balanced(benchmark::State& state) {
     for (auto _ : state) {
         const std::vector<trace::Photon> heap = spatial::left_balanced(pass.photons);
         state.PauseTiming();
-        if (spatial::first_disorder(spatial::PhotonKd(heap)) != heap.size()) state.SkipWithError("the tree is out of order");
+        if (spatial::first_disorder(spatial::PhotonKd(heap)) != heap.size())
+            state.SkipWithError("the tree is out of order");
         state.ResumeTiming();
     }
     state.SetItemsProcessed(state.iterations() * photon_count);
 }
-BENCHMARK(left_balanced)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->Iterations(5);
+BENCHMARK(left_balanced)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime()
+    ->Iterations(5);
 
 }  // namespace
 }  // namespace regather::bench

@@ -1,6 +1,7 @@
-// bench/rays_bench.cpp -- the renderer's rays beside bare Embree, one thread: the eye, shadow and gather rays of the scene `room`
-// in capture order, (a) by a loop of rtcIntersect1 or rtcOccluded1 over an Embree scene of the same kind, (b) by RayCaster,
-// which also finds position and normals. Every run checks that both find the same triangles. Bar: (b) within 1.3 times (a).
+// bench/rays_bench.cpp -- the renderer's rays beside bare Embree, one thread: the eye, shadow and gather rays
+// of the scene `room` in capture order, (a) by a loop of rtcIntersect1 or rtcOccluded1 over an Embree scene
+// of the same kind, (b) by RayCaster, which also finds position and normals. Every run checks that both find
+// the same triangles. Bar: (b) within 1.3 times (a).
 #include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>
 
@@ -23,13 +24,15 @@ constexpr std::uint32_t nothing = 0xffffffffu;
 /// Embree as RayCaster sets it up, and nothing else.
 class Bare {
 public:
-    explicit Bare(const scenes::Scene& scene) : device_(rtcNewDevice("isa=avx2")), scene_(rtcNewScene(device_)) {
+    explicit Bare(const scenes::Scene& scene)
+        : device_(rtcNewDevice("isa=avx2")), scene_(rtcNewScene(device_)) {
         rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
         const RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                     sizeof(trace::Vec3), scene.vertices.size()));
-        auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-            mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), scene.triangles.size()));
+        auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+            mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(trace::Vec3), scene.vertices.size()));
+        auto* indices = static_cast<std::uint32_t*>(
+            rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                    3 * sizeof(std::uint32_t), scene.triangles.size()));
         for (const trace::Vec3 v : scene.vertices)
             for (int axis = 0; axis < 3; ++axis) *vertices++ = v[axis];
         for (const auto& triangle : scene.triangles)
@@ -38,7 +41,8 @@ public:
         rtcAttachGeometry(scene_, mesh);
         rtcReleaseGeometry(mesh);
         rtcCommitScene(scene_);
-        if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) throw std::runtime_error("Embree cannot build the scene");
+        if (rtcGetDeviceError(device_) != RTC_ERROR_NONE)
+            throw std::runtime_error("Embree cannot build the scene");
     }
     Bare(const Bare&) = delete;
     Bare& operator=(const Bare&) = delete;
@@ -66,9 +70,18 @@ public:
 
 private:
     static RTCRay ray(trace::Vec3 origin, trace::Vec3 direction, float extent) {
-        return {.org_x = origin.x, .org_y = origin.y, .org_z = origin.z, .tnear = 0,
-                .dir_x = direction.x, .dir_y = direction.y, .dir_z = direction.z, .time = 0,
-                .tfar = extent, .mask = nothing, .id = 0, .flags = 0};
+        return {.org_x = origin.x,
+                .org_y = origin.y,
+                .org_z = origin.z,
+                .tnear = 0,
+                .dir_x = direction.x,
+                .dir_y = direction.y,
+                .dir_z = direction.z,
+                .time = 0,
+                .tfar = extent,
+                .mask = nothing,
+                .id = 0,
+                .flags = 0};
     }
     RTCDevice device_;
     RTCScene scene_;
@@ -84,13 +97,16 @@ struct Course {
 
     Course() {
         const capture::LightSampler lights(scene);
-        collect(lights, {.width = 512, .height = 512, .gather_rays = 0, .shadow_rays = 0, .seed = 1}, RayKind::eye);
-        collect(lights, {.width = 64, .height = 64, .gather_rays = 100, .shadow_rays = 16, .seed = 1}, RayKind::gather);
+        collect(lights, {.width = 512, .height = 512, .gather_rays = 0, .shadow_rays = 0, .seed = 1},
+                RayKind::eye);
+        collect(lights, {.width = 64, .height = 64, .gather_rays = 100, .shadow_rays = 16, .seed = 1},
+                RayKind::gather);
         for (std::size_t kind = 0; kind < rays.size(); ++kind)
             for (std::size_t i = 0; i < rays[kind].size(); ++i)
-                found[kind].push_back(static_cast<RayKind>(kind) == RayKind::shadow
-                                          ? bare.occluded(rays[kind].origin[i], rays[kind].direction[i], rays[kind].extent[i])
-                                          : bare.closest(rays[kind].origin[i], rays[kind].direction[i]));
+                found[kind].push_back(
+                    static_cast<RayKind>(kind) == RayKind::shadow
+                        ? bare.occluded(rays[kind].origin[i], rays[kind].direction[i], rays[kind].extent[i])
+                        : bare.closest(rays[kind].origin[i], rays[kind].direction[i]));
     }
 
 private:
@@ -98,7 +114,9 @@ private:
         capture::PixelWork work;
         capture::QueryPass(scene, caster, lights, config, {.rays = true, .caustics = false})
             .run(0, std::uint64_t{config.width} * config.height, work);
-        const auto take = [&](RayKind k) { rays[static_cast<std::size_t>(k)] = std::move(work.rays[static_cast<std::size_t>(k)]); };
+        const auto take = [&](RayKind k) {
+            rays[static_cast<std::size_t>(k)] = std::move(work.rays[static_cast<std::size_t>(k)]);
+        };
         take(kind);
         if (kind == RayKind::gather) take(RayKind::shadow);
     }
@@ -121,12 +139,15 @@ void race(benchmark::State& state, RayKind kind, Cast&& cast) {
         if (others > 0) state.SkipWithError("another triangle");
     }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rays.size()));
-    state.counters["a ray"] = benchmark::Counter(
-        static_cast<double>(rays.size()), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    state.counters["a ray"] =
+        benchmark::Counter(static_cast<double>(rays.size()),
+                           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 void bare_closest(benchmark::State& state, RayKind kind) {
-    race(state, kind, [&](trace::Vec3 origin, trace::Vec3 direction, float) { return course().bare.closest(origin, direction); });
+    race(state, kind, [&](trace::Vec3 origin, trace::Vec3 direction, float) {
+        return course().bare.closest(origin, direction);
+    });
 }
 void caster_closest(benchmark::State& state, RayKind kind) {
     race(state, kind, [&](trace::Vec3 origin, trace::Vec3 direction, float) {

@@ -1,6 +1,7 @@
-// bench/replay_bench.cpp -- is replaying walks worth it? One ordering of the same queries: searched again, and replayed.
-// The trace is made here: the scene `room` with 1 M photons, k = 100 and the queries of 45 x 45 pixels x 100 gather rays.
-// Every run checks the photons, nodes or misses that it counts against the searches'.
+// bench/replay_bench.cpp -- is replaying walks worth it? One ordering of the same queries: searched again,
+// and replayed. The trace is made here: the scene `room` with 1 M photons, k = 100 and the queries of 45 x 45
+// pixels x 100 gather rays. Every run checks the photons, nodes or misses that it counts against the
+// searches'.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -42,7 +43,8 @@ struct Simulate {
 };
 
 void search_again(benchmark::State& state) {
-    const std::vector<std::uint32_t> order = room().permutation(orderings[static_cast<std::size_t>(state.range(0))]);
+    const std::vector<std::uint32_t> order =
+        room().permutation(orderings[static_cast<std::size_t>(state.range(0))]);
     const spatial::PhotonKd tree(room().heap);
     spatial::NearestSet found(k);
     for (auto unused : state) {
@@ -58,7 +60,8 @@ void search_again(benchmark::State& state) {
 BENCHMARK(search_again)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 void search_again_and_simulate(benchmark::State& state) {
-    const std::vector<std::uint32_t> order = room().permutation(orderings[static_cast<std::size_t>(state.range(0))]);
+    const std::vector<std::uint32_t> order =
+        room().permutation(orderings[static_cast<std::size_t>(state.range(0))]);
     const spatial::PhotonKd tree(room().heap);
     const replay::WalkStore walks(photon_count, room().recording.walk_bytes, room().recording.walks);
     const std::array<cachesim::CacheConfig, 1> caches{};
@@ -72,18 +75,21 @@ void search_again_and_simulate(benchmark::State& state) {
             spatial::nearest(tree, room().queries.position[q], found, simulate);
             simulate.drain();
         }
-        if (simulate.cache.total().misses != expected) state.SkipWithError("another number of misses than the replay");
+        if (simulate.cache.total().misses != expected)
+            state.SkipWithError("another number of misses than the replay");
     }
     rate(state);
 }
 BENCHMARK(search_again_and_simulate)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 void decode(benchmark::State& state) {
-    const std::vector<std::uint32_t> order = room().permutation(orderings[static_cast<std::size_t>(state.range(0))]);
+    const std::vector<std::uint32_t> order =
+        room().permutation(orderings[static_cast<std::size_t>(state.range(0))]);
     const replay::WalkStore walks(photon_count, room().recording.walk_bytes, room().recording.walks);
     for (auto unused : state) {
         const replay::Replayed replayed = replay::replay(walks, {}, order, {}, {});
-        if (replayed.visited_nodes != room().recording.visited_nodes) state.SkipWithError("another number of nodes");
+        if (replayed.visited_nodes != room().recording.visited_nodes)
+            state.SkipWithError("another number of nodes");
     }
     rate(state);
     state.counters["nodes/s"] = benchmark::Counter(static_cast<double>(room().recording.visited_nodes),
@@ -92,7 +98,8 @@ void decode(benchmark::State& state) {
 BENCHMARK(decode)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 void replay_and_simulate(benchmark::State& state) {
-    const std::vector<std::uint32_t> order = room().permutation(orderings[static_cast<std::size_t>(state.range(0))]);
+    const std::vector<std::uint32_t> order =
+        room().permutation(orderings[static_cast<std::size_t>(state.range(0))]);
     const replay::WalkStore walks(photon_count, room().recording.walk_bytes, room().recording.walks);
     const std::array<cachesim::CacheConfig, 1> caches{};
     const replay::ReplayConfig config{{caches.begin(), caches.end()}, false};
@@ -100,11 +107,13 @@ void replay_and_simulate(benchmark::State& state) {
     double accesses = 0;
     for (auto unused : state) {
         const replay::Replayed replayed = replay::replay(walks, {}, order, config, revisits);
-        if (replayed.visited_nodes != room().recording.visited_nodes) state.SkipWithError("another number of nodes");
+        if (replayed.visited_nodes != room().recording.visited_nodes)
+            state.SkipWithError("another number of nodes");
         accesses = static_cast<double>(replayed.caches[0].accesses);
     }
     rate(state);
-    state.counters["accesses/s"] = benchmark::Counter(accesses, benchmark::Counter::kIsIterationInvariantRate);
+    state.counters["accesses/s"] =
+        benchmark::Counter(accesses, benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(replay_and_simulate)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 

@@ -1,5 +1,5 @@
-// bench/room.h -- what the benchmarks measure on: the scene `room` with 1 M photons, k = 100, and the queries of 45 x 45 pixels
-// x 100 gather rays, with their walks.
+// bench/room.h -- what the benchmarks measure on: the scene `room` with 1 M photons, k = 100, and the queries
+// of 45 x 45 pixels x 100 gather rays, with their walks.
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -25,19 +25,24 @@ struct Room {
         const scenes::Scene scene = scenes::load_scene("room");
         const capture::RayCaster caster(scene);
         const capture::LightSampler lights(scene);
-        heap = spatial::left_balanced(capture::trace_photons(scene, caster, lights, {.photons = photon_count, .seed = 1}).photons);
+        heap = spatial::left_balanced(
+            capture::trace_photons(scene, caster, lights, {.photons = photon_count, .seed = 1}).photons);
         capture::PixelWork work;
-        const capture::QueryConfig config{.width = 45, .height = 45, .gather_rays = 100, .shadow_rays = 0,
-                                          .max_specular = 16, .seed = 1};
+        const capture::QueryConfig config{
+            .width = 45, .height = 45, .gather_rays = 100, .shadow_rays = 0, .max_specular = 16, .seed = 1};
         capture::QueryPass(scene, caster, lights, config, {}).run(0, 45 * 45, work);
         queries = std::move(work.queries);
         recording = spatial::record_walks(spatial::PhotonKd(heap), queries.position, k,
                                           std::numeric_limits<float>::infinity());
     }
     std::vector<std::uint32_t> permutation(const char* ordering) const {
-        const reorder::Workload work{.position = queries.position, .direction = queries.direction,
-                                     .pixel = queries.pixel, .leaf_kd = {}, .leaf_bvh = {},
-                                     .bounds = trace::bounds_of(queries.position), .image_width = 45,
+        const reorder::Workload work{.position = queries.position,
+                                     .direction = queries.direction,
+                                     .pixel = queries.pixel,
+                                     .leaf_kd = {},
+                                     .leaf_bvh = {},
+                                     .bounds = trace::bounds_of(queries.position),
+                                     .image_width = 45,
                                      .image_height = 45};
         return reorder::order(*reorder::make_ordering(ordering), work).permutation;
     }

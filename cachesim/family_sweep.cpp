@@ -20,7 +20,8 @@ FamilyConfig config_of(std::uint32_t ways, bool classes) {
 
 }  // namespace
 
-FamilySweep::FamilySweep(std::span<const std::uint32_t> line_sizes, std::uint32_t ways, bool classes) : classes_(classes) {
+FamilySweep::FamilySweep(std::span<const std::uint32_t> line_sizes, std::uint32_t ways, bool classes)
+    : classes_(classes) {
     for (const std::uint32_t line_bytes : line_sizes) {
         if (!std::has_single_bit(line_bytes))
             throw trace::UsageError(fmt::format("line_bytes: found {}, expected a power of two", line_bytes));
@@ -41,13 +42,19 @@ std::vector<FamilyRow> FamilySweep::rows() {
     std::vector<FamilyRow> rows;
     for (LineSize& size : sizes_) {
         const FamilyCounts& counts = size.family.counts();
-        const auto add = [&](std::uint64_t lines, std::uint32_t ways, std::uint64_t misses, std::uint64_t conflicts) {
-            rows.push_back({{lines * size.line_bytes, size.line_bytes, ways}, counts.accesses, misses, counts.compulsory,
-                            misses - counts.compulsory - conflicts, conflicts});
+        const auto add = [&](std::uint64_t lines, std::uint32_t ways, std::uint64_t misses,
+                             std::uint64_t conflicts) {
+            rows.push_back({{lines * size.line_bytes, size.line_bytes, ways},
+                            counts.accesses,
+                            misses,
+                            counts.compulsory,
+                            misses - counts.compulsory - conflicts,
+                            conflicts});
         };
         for (const FamilyCounts::Level& level : counts.levels)
             for (std::uint32_t ways = 1; ways <= level.level.ways; ++ways)
-                add(level.level.sets * ways, ways, level.misses[ways - 1], classes_ ? level.conflicts[ways - 1] : 0);
+                add(level.level.sets * ways, ways, level.misses[ways - 1],
+                    classes_ ? level.conflicts[ways - 1] : 0);
         for (std::uint64_t lines = 1;; lines *= 2) {
             const std::uint64_t misses = counts.full_misses(lines);
             add(lines, fully_associative, misses, 0);

@@ -1,5 +1,6 @@
-// cachesim/family_sweep.h -- one stream of byte accesses through every LRU cache of some line sizes: 1 to 2^16 sets (powers of
-// two) of 1 to 16 ways, and fully associative ones of each power of two of lines that the stream can fill.
+// cachesim/family_sweep.h -- one stream of byte accesses through every LRU cache of some line sizes: 1 to
+// 2^16 sets (powers of two) of 1 to 16 ways, and fully associative ones of each power of two of lines that
+// the stream can fill.
 #pragma once
 #include <cstdint>
 #include <span>

@@ -20,7 +20,8 @@ LineStamps::Slot& LineStamps::slot_of(std::uint64_t line) {
 
 Stamps& LineStamps::hashed(std::uint64_t line) {
     if (2 * (taken_ + 1) > high_.size()) {
-        std::vector<Slot> old = std::exchange(high_, std::vector<Slot>(std::max<std::size_t>(4096, 2 * high_.size())));
+        std::vector<Slot> old =
+            std::exchange(high_, std::vector<Slot>(std::max<std::size_t>(4096, 2 * high_.size())));
         for (const Slot& slot : old)
             if (slot.stamps.all != 0) slot_of(slot.line) = slot;
     }

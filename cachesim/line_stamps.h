@@ -1,4 +1,5 @@
-// cachesim/line_stamps.h -- the time stamps of each line's last touch: a table for low line numbers, open addressing above.
+// cachesim/line_stamps.h -- the time stamps of each line's last touch: a table for low line numbers, open
+// addressing above.
 #pragma once
 #include <algorithm>
 #include <cstdint>

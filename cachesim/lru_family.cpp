@@ -48,7 +48,8 @@ std::uint64_t FamilyCounts::conflicts(std::uint64_t sets, std::uint32_t ways) co
 
 std::uint64_t FamilyCounts::full_misses(std::uint64_t lines) const {
     const std::size_t first = std::min<std::size_t>(lines, by_distance.size());
-    return std::accumulate(by_distance.begin() + static_cast<std::ptrdiff_t>(first), by_distance.end(), compulsory);
+    return std::accumulate(by_distance.begin() + static_cast<std::ptrdiff_t>(first), by_distance.end(),
+                           compulsory);
 }
 
 FamilyCounts& FamilyCounts::operator+=(const FamilyCounts& other) {
@@ -69,7 +70,8 @@ FamilyCounts& FamilyCounts::operator+=(const FamilyCounts& other) {
 /// The rows of some levels, and the touches on their way to them.
 class LruFamily::Batch {
 public:
-    Batch(bool with_distances, bool with_conflicts) : with_distances_(with_distances), with_conflicts_(with_conflicts) {}
+    Batch(bool with_distances, bool with_conflicts)
+        : with_distances_(with_distances), with_conflicts_(with_conflicts) {}
 
     void add(const FamilyLevel& level, FamilyCounts& counts) {
         Rows& rows = rows_.emplace_back();
@@ -99,7 +101,8 @@ public:
         std::int32_t *before, *now, *distance;
     };
     Places append(std::size_t count) {
-        const Places places{line_.data() + fill_, before_.data() + fill_, now_.data() + fill_, distance_.data() + fill_};
+        const Places places{line_.data() + fill_, before_.data() + fill_, now_.data() + fill_,
+                            distance_.data() + fill_};
         std::fill_n(counted_.data() + fill_, count, -1);
         fill_ += count;
         return places;
@@ -130,8 +133,12 @@ public:
 
     void flush() {
         if (fill_ == 0) return;
-        const Touches touches{line_.data(), before_.data(), now_.data(), with_distances_ ? distance_.data() : nullptr,
-                              all_counted_ ? nullptr : counted_.data(), fill_};
+        const Touches touches{line_.data(),
+                              before_.data(),
+                              now_.data(),
+                              with_distances_ ? distance_.data() : nullptr,
+                              all_counted_ ? nullptr : counted_.data(),
+                              fill_};
         // Rows of one width go together.
         for (std::size_t first = 0; first < rows_.size();) {
             std::vector<RecencyRows> kernels;
@@ -171,8 +178,9 @@ private:
     alignas(64) std::array<std::int32_t, capacity> before_{}, now_{}, distance_{}, counted_{};
 };
 
-/// Two streams: all touches, for distances and the levels of few sets; and those that are left when a touch of the line that
-/// is the newest of its set, for the levels of many sets. Such a touch hits in all of these and changes the order in none.
+/// Two streams: all touches, for distances and the levels of few sets; and those that are left when a touch
+/// of the line that is the newest of its set, for the levels of many sets. Such a touch hits in all of these
+/// and changes the order in none.
 class LruFamily::Engine {
 public:
     explicit Engine(const FamilyConfig& config)
@@ -192,7 +200,8 @@ public:
         }
         if (filtered_.empty()) return;
         newest_.resize(fewest);
-        for (std::uint64_t set = 0; set < fewest; ++set) newest_[set].line = Line{set ^ 1};  // of another set: none yet
+        for (std::uint64_t set = 0; set < fewest; ++set)
+            newest_[set].line = Line{set ^ 1};  // of another set: none yet
     }
 
     void access(std::span<const Line> lines) {
@@ -238,7 +247,8 @@ public:
     const FamilyCounts& counts() {
         all_.collect(counts_);
         filtered_.collect(counts_);
-        while (!counts_.by_distance.empty() && counts_.by_distance.back() == 0) counts_.by_distance.pop_back();
+        while (!counts_.by_distance.empty() && counts_.by_distance.back() == 0)
+            counts_.by_distance.pop_back();
         return counts_;
     }
 
@@ -255,8 +265,8 @@ private:
         bool left_out = false;   // ... and has not got
     };
 
-    /// One touch of a walk whose stamps start at next_: its line's last touch in the walk is the `rank`-th. `met`: lines of
-    /// the walk that were touched before it, when their bits are set at the walk's end.
+    /// One touch of a walk whose stamps start at next_: its line's last touch in the walk is the `rank`-th.
+    /// `met`: lines of the walk that were touched before it, when their bits are set at the walk's end.
     template <bool counted>
     void touch(Line line, std::uint32_t rank, std::uint32_t met) {
         Stamps& last = last_.of(line);
@@ -282,7 +292,8 @@ private:
         if (!newest_.empty()) filter(line, last, now, distance, counted);
     }
 
-    /// touch() for `count` touches of a walk from the `first`-th on, in steps that each run through a few arrays.
+    /// touch() for `count` touches of a walk from the `first`-th on, in steps that each run through a few
+    /// arrays.
     void touch_low(std::span<const Line> lines, std::span<const std::uint32_t> last_rank, std::uint32_t first,
                    std::uint32_t count) {
         Stamps* const last = last_.table();
@@ -316,7 +327,8 @@ private:
             }
             counts_.compulsory += fresh;
         } else {
-            for (std::uint32_t i = 0; i < count; ++i) counts_.compulsory += to.before[i] == never_touched ? 1 : 0;
+            for (std::uint32_t i = 0; i < count; ++i)
+                counts_.compulsory += to.before[i] == never_touched ? 1 : 0;
         }
         if (!newest_.empty())
             for (std::uint32_t i = 0; i < count; ++i)
@@ -380,7 +392,8 @@ private:
         all_.renumber(renumbered);
         filtered_.renumber(renumbered);
         const std::uint64_t wanted = 2 * (std::uint64_t{in_use} + count + first_stamp);
-        if (wanted > max_stamps) throw std::length_error(fmt::format("found {} different lines, expected fewer", lines));
+        if (wanted > max_stamps)
+            throw std::length_error(fmt::format("found {} different lines, expected fewer", lines));
         if (wanted > bits_.capacity())
             bits_ = StampBits(wanted);
         else

@@ -12,11 +12,13 @@ namespace regather::cachesim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// With r the row, s the same row one place further back and n the new stamp: max(r, min(s, n)) is r with n put into its
-/// place. Stamps that are not above the line's last one stay where they are: their place in s is made 0 before. So the
-/// line's last stamp is what drops out, or the oldest when it is not there; no place is searched, nothing branches.
+/// With r the row, s the same row one place further back and n the new stamp: max(r, min(s, n)) is r with n
+/// put into its place. Stamps that are not above the line's last one stay where they are: their place in s is
+/// made 0 before. So the line's last stamp is what drops out, or the oldest when it is not there; no place is
+/// searched, nothing branches.
 ///
-/// Several numbers of sets side by side: one waits for its last access to the same set while the others go on.
+/// Several numbers of sets side by side: one waits for its last access to the same set while the others go
+/// on.
 template <std::size_t row, std::size_t levels, bool with_conflicts, bool with_counted>
 void touch_levels(const RecencyRows* rows, const Touches& touches, const RowCounts* counts) {
     const hn::CappedTag<std::int32_t, row> d;
@@ -46,7 +48,8 @@ void touch_levels(const RecencyRows* rows, const Touches& touches, const RowCoun
     }
     const auto set_at = [&](std::size_t l, std::uint32_t line) {  // 64 bytes are a row of 16
         const std::size_t at = line & set_mask[l];
-        return reinterpret_cast<std::int32_t*>(stamps[l] + (row <= 16 ? at / (16 / std::min<std::size_t>(row, 16)) : at * (row / 16)));
+        return reinterpret_cast<std::int32_t*>(
+            stamps[l] + (row <= 16 ? at / (16 / std::min<std::size_t>(row, 16)) : at * (row / 16)));
     };
     const std::uint32_t* const line = touches.line;
     const std::int32_t* const befores = touches.before;
@@ -97,9 +100,11 @@ void touch_levels(const RecencyRows* rows, const Touches& touches, const RowCoun
 }
 
 template <std::size_t row, bool with_conflicts, bool with_counted>
-void touch_rows_of(std::span<const RecencyRows> rows, const Touches& touches, std::span<const RowCounts> counts) {
+void touch_rows_of(std::span<const RecencyRows> rows, const Touches& touches,
+                   std::span<const RowCounts> counts) {
     constexpr std::size_t registers = row / hn::MaxLanes(hn::CappedTag<std::int32_t, row>());
-    constexpr std::size_t most = HWY_TARGET <= HWY_AVX3 && registers == 1 ? 4 : 2;  // levels, as registers allow
+    constexpr std::size_t most =
+        HWY_TARGET <= HWY_AVX3 && registers == 1 ? 4 : 2;  // levels, as registers allow
     // Far ones together: with few sets an access waits for the last one.
     const std::size_t groups = (rows.size() + most - 1) / most;
     for (std::size_t g = 0; g < groups; ++g) {
@@ -120,7 +125,8 @@ void touch_rows_of(std::span<const RecencyRows> rows, const Touches& touches, st
 }
 
 template <std::size_t row>
-void touch_rows_by(std::span<const RecencyRows> rows, const Touches& touches, std::span<const RowCounts> counts) {
+void touch_rows_by(std::span<const RecencyRows> rows, const Touches& touches,
+                   std::span<const RowCounts> counts) {
     const bool conflicts = counts.front().conflicts != nullptr, counted = touches.counted != nullptr;
     if (conflicts)
         counted ? touch_rows_of<row, true, true>(rows, touches, counts)
@@ -130,7 +136,8 @@ void touch_rows_by(std::span<const RecencyRows> rows, const Touches& touches, st
                 : touch_rows_of<row, false, false>(rows, touches, counts);
 }
 
-void touch_rows_any(std::span<const RecencyRows> rows, const Touches& touches, std::span<const RowCounts> counts) {
+void touch_rows_any(std::span<const RecencyRows> rows, const Touches& touches,
+                    std::span<const RowCounts> counts) {
     switch (rows.front().row) {
         case 4:
             return touch_rows_by<4>(rows, touches, counts);
@@ -151,7 +158,8 @@ namespace regather::cachesim {
 
 HWY_EXPORT(touch_rows_any);
 
-void touch_rows(std::span<const RecencyRows> rows, const Touches& touches, std::span<const RowCounts> counts) {
+void touch_rows(std::span<const RecencyRows> rows, const Touches& touches,
+                std::span<const RowCounts> counts) {
     if (rows.empty() || touches.count == 0) return;
     HWY_DYNAMIC_DISPATCH(touch_rows_any)(rows, touches, counts);
 }

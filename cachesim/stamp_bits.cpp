@@ -6,7 +6,8 @@
 namespace regather::cachesim {
 
 StampBits::StampBits(std::uint64_t capacity) {
-    const std::uint64_t stamps = std::bit_ceil(std::clamp<std::uint64_t>(capacity, block, std::uint64_t{1} << 28));
+    const std::uint64_t stamps =
+        std::bit_ceil(std::clamp<std::uint64_t>(capacity, block, std::uint64_t{1} << 28));
     words_.resize(stamps / 64);
     in_word_.resize(stamps / 64);
     in_group_.resize(stamps / group);
@@ -16,7 +17,8 @@ StampBits::StampBits(std::uint64_t capacity) {
 void StampBits::set_range(std::uint32_t first, std::uint32_t count) {
     for (const std::uint32_t end = first + count; first < end;) {
         const std::uint32_t bits = std::min(64 - first % 64, end - first);
-        words_[first / 64] |= (bits == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1) << (first % 64);
+        words_[first / 64] |= (bits == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1)
+                              << (first % 64);
         in_word_[first / 64] = static_cast<std::uint8_t>(in_word_[first / 64] + bits);
         in_group_[first / group] = static_cast<std::uint16_t>(in_group_[first / group] + bits);
         in_block_[first / block] += bits;

@@ -9,7 +9,9 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-float mean(Vec3 v) { return (v.x + v.y + v.z) / 3; }
+float mean(Vec3 v) {
+    return (v.x + v.y + v.z) / 3;
+}
 float specular_share(const Material& material) {
     return material.kind == MaterialKind::glossy ? mean(material.specular) : 0;
 }
@@ -19,10 +21,18 @@ struct Wide {
     Wide(double x_, double y_, double z_) : x(x_), y(y_), z(z_) {}
     double x, y, z;
 };
-double dot(Wide a, Wide b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Wide operator*(Wide a, double s) { return {a.x * s, a.y * s, a.z * s}; }
-Wide operator+(Wide a, Wide b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Wide operator-(Wide a, Wide b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+double dot(Wide a, Wide b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+Wide operator*(Wide a, double s) {
+    return {a.x * s, a.y * s, a.z * s};
+}
+Wide operator+(Wide a, Wide b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+Wide operator-(Wide a, Wide b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
 Vec3 unit(Wide a) {
     const Wide scaled = a * (1 / std::sqrt(dot(a, a)));
     return {static_cast<float>(scaled.x), static_cast<float>(scaled.y), static_cast<float>(scaled.z)};
@@ -30,8 +40,9 @@ Vec3 unit(Wide a) {
 
 /// Between the two directions.
 struct Half {
-    double power;   ///< (n.h)^exponent
-    double length;  ///< Of the sum of the two directions: twice the cosine between either and their half vector.
+    double power;  ///< (n.h)^exponent
+    double
+        length;  ///< Of the sum of the two directions: twice the cosine between either and their half vector.
 };
 Half half_between(Vec3 normal, Vec3 a, Vec3 b, float exponent) {
     const Wide n(normal), h = Wide(a) + Wide(b);
@@ -44,13 +55,16 @@ Half half_between(Vec3 normal, Vec3 a, Vec3 b, float exponent) {
     return {std::exp(0.5 * e * std::log1p(-sine2)), std::sqrt(h2)};
 }
 
-bool both_above(Vec3 normal, Vec3 a, Vec3 b) { return trace::dot(normal, a) > 0 && trace::dot(normal, b) > 0; }
+bool both_above(Vec3 normal, Vec3 a, Vec3 b) {
+    return trace::dot(normal, a) > 0 && trace::dot(normal, b) > 0;
+}
 
 double pdf_of(const Material& material, Vec3 normal, Vec3 outgoing, Half half) {
     const double diffuse = mean(material.diffuse), glossy = specular_share(material);
     if (!(diffuse + glossy > 0)) return 0;
     double density = diffuse * trace::dot(normal, outgoing);
-    // Half vector with density (e + 1) / (2 pi) cos^e; that of the direction is smaller by 4 (incoming . half).
+    // Half vector with density (e + 1) / (2 pi) cos^e; that of the direction is smaller by 4 (incoming .
+    // half).
     if (glossy > 0) density += glossy * 0.25 * (material.exponent + 1.0) * half.power / half.length;
     return density / ((diffuse + glossy) * std::numbers::pi);
 }
@@ -127,10 +141,11 @@ bool sample_direction(const Material& material, Vec3 normal, Vec3 incoming, doub
     if (choice * (diffuse + glossy) < diffuse || !(glossy > 0)) {
         direction = frame.to_world(cosine_hemisphere(u, v));
     } else {
-        const double below_one = -std::expm1(std::log1p(-static_cast<double>(u)) / (material.exponent + 1.0));  // 1 - cos
+        const double below_one =
+            -std::expm1(std::log1p(-static_cast<double>(u)) / (material.exponent + 1.0));  // 1 - cos
         const double sine = std::sqrt(below_one * (2 - below_one)), phi = 2 * std::numbers::pi * v;
-        const Wide half = Wide(frame.tangent) * (sine * std::cos(phi)) + Wide(frame.bitangent) * (sine * std::sin(phi)) +
-                          Wide(normal) * (1 - below_one);
+        const Wide half = Wide(frame.tangent) * (sine * std::cos(phi)) +
+                          Wide(frame.bitangent) * (sine * std::sin(phi)) + Wide(normal) * (1 - below_one);
         const double along = dot(Wide(incoming), half);
         if (!(along > 0)) return false;
         direction = unit(half * (2 * along / dot(half, half)) - Wide(incoming));
@@ -144,12 +159,14 @@ Scatter scatter(const Material& material, Vec3 normal, Vec3 incoming, Sampler& s
     const double choice = sampler.fine_uniform();
     const float u = sampler.uniform(), v = sampler.uniform();
     Vec3 direction;
-    if (!(choice < albedo) || !sample_direction(material, normal, incoming, choice / albedo, u, v, direction)) return {};
+    if (!(choice < albedo) || !sample_direction(material, normal, incoming, choice / albedo, u, v, direction))
+        return {};
     if (!(glossy > 0)) return {false, direction, material.diffuse * (1 / albedo)};
     const Half half = half_of(material, normal, incoming, direction);
     const double density = pdf_of(material, normal, direction, half) * albedo;
     if (!(density > 0)) return {};
-    return {false, direction, value_of(material, half) * static_cast<float>(trace::dot(normal, direction) / density)};
+    return {false, direction,
+            value_of(material, half) * static_cast<float>(trace::dot(normal, direction) / density)};
 }
 
 }  // namespace regather::capture

@@ -37,12 +37,9 @@ nlohmann::json length_of(float radius) {
 nlohmann::json counts_of(const PhotonTally& tally) {
     return {{"photon_paths", tally.paths},
 
-            {"emitted_watts", tally.emitted},
-            {"reflected_watts", tally.reflected},
-            {"stored_watts", tally.stored},
-            {"not_stored_watts", tally.not_stored},
-            {"escaped_watts", tally.escaped},
-            {"absorbed_by_specular_watts", tally.absorbed_by_specular},
+            {"emitted_watts", tally.emitted}, {"reflected_watts", tally.reflected},
+            {"stored_watts", tally.stored},   {"not_stored_watts", tally.not_stored},
+            {"escaped_watts", tally.escaped}, {"absorbed_by_specular_watts", tally.absorbed_by_specular},
             {"cut_off_watts", tally.cut_off}};
 }
 
@@ -75,13 +72,17 @@ void check(const CaptureConfig& config) {
     const QueryConfig& pixels = config.pixels;
     const std::uint64_t count = std::uint64_t{pixels.width} * pixels.height;
     if (count == 0)
-        throw trace::UsageError(fmt::format("image size: found {} x {}, expected at least one pixel", pixels.width, pixels.height));
-    if (pixels.samples == 0) throw trace::UsageError("samples: found 0, expected at least one eye ray a pixel");
+        throw trace::UsageError(fmt::format("image size: found {} x {}, expected at least one pixel",
+                                            pixels.width, pixels.height));
+    if (pixels.samples == 0)
+        throw trace::UsageError("samples: found 0, expected at least one eye ray a pixel");
     // A dielectric splits an eye ray once, and each shaded point has one gather ray at least.
-    const std::uint64_t most = std::max<std::uint64_t>(pixels.gather_rays, 1) + 2 * std::uint64_t{pixels.samples};
+    const std::uint64_t most =
+        std::max<std::uint64_t>(pixels.gather_rays, 1) + 2 * std::uint64_t{pixels.samples};
     if (count * most >= (std::uint64_t{1} << 32))
-        throw trace::UsageError(fmt::format("gather rays: found {} pixels x {}, expected fewer than 2^32 queries", count,
-                                            pixels.gather_rays));
+        throw trace::UsageError(
+            fmt::format("gather rays: found {} pixels x {}, expected fewer than 2^32 queries", count,
+                        pixels.gather_rays));
 }
 
 }  // namespace
@@ -147,23 +148,33 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
     };
     Map global(config.gather);
     PhotonConfig photon = config.photon;
-    if (caustics && config.pixels.visualisation == Visualisation::direct) photon.kind = PhotonKind::all_but_caustic;
+    if (caustics && config.pixels.visualisation == Visualisation::direct)
+        photon.kind = PhotonKind::all_but_caustic;
     report("photons", 0, photon.photons);
     build(global, photon, writers.global);
-    Map caustic({.k = config.caustic.k, .radius = config.caustic.radius, .filter = config.caustic.filter,
+    Map caustic({.k = config.caustic.k,
+                 .radius = config.caustic.radius,
+                 .filter = config.caustic.filter,
                  .surface_check = config.gather.surface_check});
     if (caustics) {
         report("caustic photons", 0, config.caustic.photons);
-        build(caustic, {.photons = config.caustic.photons, .seed = config.photon.seed, .kind = PhotonKind::caustic,
-                        .paths_per_photon = caustic_paths_per_photon}, writers.caustic);
+        build(caustic,
+              {.photons = config.caustic.photons,
+               .seed = config.photon.seed,
+               .kind = PhotonKind::caustic,
+               .paths_per_photon = caustic_paths_per_photon},
+              writers.caustic);
     }
 
-    const QueryPass query_pass(scene, caster, lights, config.pixels, {.rays = writers.global && config.columns.rays, .caustics = caustics});
+    const QueryPass query_pass(scene, caster, lights, config.pixels,
+                               {.rays = writers.global && config.columns.rays, .caustics = caustics});
     Film film(config.pixels.width, config.pixels.height, config.pixels.samples);
     std::array<std::uint64_t, ray_kind_names.size()> ray_counts{};
-    const std::uint64_t pixel_rays =
-        config.pixels.gather_rays + 2 * std::uint64_t{config.pixels.samples} * config.pixels.shadow_rays * std::min<std::size_t>(lights.size(), 4);
-    const std::uint64_t batch = std::max<std::uint64_t>(1, batch_rays / std::max<std::uint64_t>(pixel_rays, 1));
+    const std::uint64_t pixel_rays = config.pixels.gather_rays + 2 * std::uint64_t{config.pixels.samples} *
+                                                                     config.pixels.shadow_rays *
+                                                                     std::min<std::size_t>(lights.size(), 4);
+    const std::uint64_t batch =
+        std::max<std::uint64_t>(1, batch_rays / std::max<std::uint64_t>(pixel_rays, 1));
     PixelWork work;
     for (std::uint64_t first = 0; first < pixels; first += batch) {
         clock.lap();
@@ -174,7 +185,8 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         if (caustics) caustic.gather(scene, work.caustic_queries, config);
         film.add(work, global.gathered, caustic.gathered);
         result.gather_seconds += clock.lap();
-        for (std::size_t kind = 0; kind < ray_counts.size(); ++kind) ray_counts[kind] += work.ray_counts[kind];
+        for (std::size_t kind = 0; kind < ray_counts.size(); ++kind)
+            ray_counts[kind] += work.ray_counts[kind];
         result.nonfinite += work.nonfinite;
         if (global.columns) {
             global.columns->write_queries(work.queries, global.gathered);
@@ -203,7 +215,8 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         for (std::size_t kind = 0; kind < ray_counts.size(); ++kind)
             info.counts[fmt::format("{}_rays", ray_kind_names[kind])] = ray_counts[kind];
         for (std::size_t stage = 0; stage < stage_count; ++stage)
-            info.counts[fmt::format("nonfinite_{}", stage_names[stage])] = result.nonfinite.of(static_cast<Stage>(stage));
+            info.counts[fmt::format("nonfinite_{}", stage_names[stage])] =
+                result.nonfinite.of(static_cast<Stage>(stage));
         if (map.columns) info.left_out = map.columns->left_out();
         return info;
     };
@@ -211,7 +224,9 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
     if (caustics) {
         result.caustic_info = finish(caustic, "caustic");
     } else if (writers.global) {
-        result.info.left_out.push_back({"caustic map", needs.caustics.needed ? "no caustic photons were asked for" : needs.caustics.reason});
+        result.info.left_out.push_back({"caustic map", needs.caustics.needed
+                                                           ? "no caustic photons were asked for"
+                                                           : needs.caustics.reason});
     }
     return result;
 }

@@ -1,4 +1,5 @@
-// capture/capture.h -- scene in, image and trace out: the photon pass, the tree, and the pixels batch by batch.
+// capture/capture.h -- scene in, image and trace out: the photon pass, the tree, and the pixels batch by
+// batch.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -21,8 +22,9 @@
 
 namespace regather::capture {
 
-/// The caustic map: photons that specular surfaces, and nothing else, have turned between light and store (Jensen 2001,
-/// section 9.1: LS+D paths), gathered at every eye-visible surface. Not built for a scene without need of it.
+/// The caustic map: photons that specular surfaces, and nothing else, have turned between light and store
+/// (Jensen 2001, section 9.1: LS+D paths), gathered at every eye-visible surface. Not built for a scene
+/// without need of it.
 struct CausticConfig {
     std::uint32_t photons = 100'000, k = 60;
     float radius = std::numeric_limits<float>::infinity();  ///< [scene units]
@@ -36,8 +38,10 @@ struct CaptureConfig {
     CausticConfig caustic;
     Columns columns;
     std::set<std::string> keep;  ///< Parts that the scene has no need of (scenes/needs.h), kept all the same.
-    std::optional<std::uint32_t> frame;  ///< Of the camera path, for trace.json; the scene's camera is where it looks from.
-    /// Order of the searches within a batch of pixels; empty: capture order. It changes the time, not a bit of the result.
+    std::optional<std::uint32_t>
+        frame;  ///< Of the camera path, for trace.json; the scene's camera is where it looks from.
+    /// Order of the searches within a batch of pixels; empty: capture order. It changes the time, not a bit
+    /// of the result.
     std::function<std::vector<std::uint32_t>(const Queries&)> order;
     /// Told after each step: stage, steps done, steps in all.
     std::function<void(std::string_view stage, std::uint64_t done, std::uint64_t total)> progress;
@@ -55,11 +59,12 @@ struct Captured {
 /// XXH3-64 over everything in the scene that light can see, in hexadecimal.
 std::string checksum(const Scene& scene);
 
-/// What a capture's trace.json says under "parameters": two captures with equal parameters have equal columns.
+/// What a capture's trace.json says under "parameters": two captures with equal parameters have equal
+/// columns.
 nlohmann::json parameters(const Scene& scene, const CaptureConfig& config);
 
-/// Whether a capture builds a caustic map: the scene needs one or is made to keep one, and its photons are asked for. Without
-/// it, gather rays find what lights send by way of specular surfaces.
+/// Whether a capture builds a caustic map: the scene needs one or is made to keep one, and its photons are
+/// asked for. Without it, gather rays find what lights send by way of specular surfaces.
 bool has_caustic_map(const Scene& scene, const CaptureConfig& config);
 
 /// Where the columns go: each photon map has a trace of its own. Null: nowhere.
@@ -68,8 +73,9 @@ struct TraceWriters {
     trace::TraceWriter* caustic = nullptr;
 };
 
-/// Renders, and writes columns; the caller finishes the writers with Captured::info and caustic_info when all else
-/// that belongs to the capture is written. UsageError for a picture without pixels or of 2^32 queries or more.
+/// Renders, and writes columns; the caller finishes the writers with Captured::info and caustic_info when all
+/// else that belongs to the capture is written. UsageError for a picture without pixels or of 2^32 queries or
+/// more.
 Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWriters& writers = {});
 
 }  // namespace regather::capture

@@ -50,7 +50,8 @@ std::string checksum(const Scene& scene) {
         digest.add(material.index_of_refraction);
     }
     for (const scenes::AreaLight& light : scene.lights)
-        for (const Vec3 v : {light.corner, light.edge_u, light.edge_v, light.radiance}) digest.add(v);  // a mesh is in the triangles
+        for (const Vec3 v : {light.corner, light.edge_u, light.edge_v, light.radiance})
+            digest.add(v);  // a mesh is in the triangles
     for (const Vec3 v : {scene.camera.position, scene.camera.target, scene.camera.up}) digest.add(v);
     digest.add(scene.camera.vertical_fov_degrees);
     return digest.text();

@@ -17,7 +17,8 @@ public:
     template <class Add>
     std::uint32_t take(std::uint32_t pixel, std::uint32_t sample, const Add& add) {
         const std::size_t first = next_;
-        for (; next_ < queries_.size() && queries_.pixel[next_] == pixel && queries_.sample[next_] == sample; ++next_)
+        for (; next_ < queries_.size() && queries_.pixel[next_] == pixel && queries_.sample[next_] == sample;
+             ++next_)
             add(queries_.layer[next_], queries_.weight[next_] * gathered_.radiance[next_]);
         return static_cast<std::uint32_t>(next_ - first);
     }
@@ -63,12 +64,16 @@ void Film::add(const PixelWork& work, const Gathered& gathered, const Gathered& 
             Sums sums{};
             const auto add_part = [&](Layer layer, Vec3 radiance) {
                 for (int c = 0; c < 3; ++c)
-                    sums[static_cast<std::size_t>(layer)][static_cast<std::size_t>(c)] += static_cast<double>(radiance[c]);
+                    sums[static_cast<std::size_t>(layer)][static_cast<std::size_t>(c)] +=
+                        static_cast<double>(radiance[c]);
             };
-            const auto add_estimate = [&](Layer layer, Vec3 radiance) { add_part(layer, nonfinite_.checked(Stage::estimate, radiance)); };
+            const auto add_estimate = [&](Layer layer, Vec3 radiance) {
+                add_part(layer, nonfinite_.checked(Stage::estimate, radiance));
+            };
             const LayeredRadiance& seen = work.radiance[std::size_t{i} * samples_ + s];
             for (std::size_t l = 0; l < seen.size(); ++l) add_part(static_cast<Layer>(l), seen[l]);
-            queries += global.take(first_pixel + i, s, add_estimate) + caustic.take(first_pixel + i, s, add_estimate);
+            queries += global.take(first_pixel + i, s, add_estimate) +
+                       caustic.take(first_pixel + i, s, add_estimate);
             double light = 0;
             for (std::size_t l = 0; l < sums.size(); ++l) {
                 light += luminance(sums[l][0], sums[l][1], sums[l][2]);
@@ -88,7 +93,8 @@ void Film::add(const PixelWork& work, const Gathered& gathered, const Gathered& 
         }
         image_.pixels.push_back(to_float(sum));
         layers_.query_count.push_back(queries);
-        if (samples_ > 1) layers_.variance.push_back(static_cast<float>(squares / (samples_ - 1.0) / samples_));
+        if (samples_ > 1)
+            layers_.variance.push_back(static_cast<float>(squares / (samples_ - 1.0) / samples_));
     }
 }
 

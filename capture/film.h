@@ -1,4 +1,5 @@
-// capture/film.h -- where the light of all paths comes together: sums by pixel, layer and eye ray, in one fixed order.
+// capture/film.h -- where the light of all paths comes together: sums by pixel, layer and eye ray, in one
+// fixed order.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -10,11 +11,13 @@
 
 namespace regather::capture {
 
-/// The image by the light's last turns. `specular` is all that the eye sees by way of a specular surface; the other three are
-/// seen straight: emitted or reflected once (direct), the caustic map, the global map. Their sum is the image, to rounding.
+/// The image by the light's last turns. `specular` is all that the eye sees by way of a specular surface; the
+/// other three are seen straight: emitted or reflected once (direct), the caustic map, the global map. Their
+/// sum is the image, to rounding.
 struct Layers {
     std::array<Image, layer_names.size()> images;  ///< By Layer.
-    std::vector<float> variance;  ///< Of the pixel's luminance, from its eye rays, photon maps held fixed; empty for one eye ray.
+    std::vector<float> variance;  ///< Of the pixel's luminance, from its eye rays, photon maps held fixed;
+                                  ///< empty for one eye ray.
     std::vector<std::uint32_t> query_count;  ///< Photon gathers a pixel, of both maps.
 
     /// All as channels of an EXR: "direct.R" ..., "variance.Y" where there is one, "queries.N".

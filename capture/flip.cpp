@@ -38,7 +38,8 @@ constexpr Matrix inverse(const Matrix& m) {
 constexpr Matrix rgb_of_xyz = inverse(xyz_of_rgb);
 
 constexpr Colour times(const Matrix& m, const Colour& v) {
-    return {m[0][0] * v[0] + m[0][1] * v[1] + m[0][2] * v[2], m[1][0] * v[0] + m[1][1] * v[1] + m[1][2] * v[2],
+    return {m[0][0] * v[0] + m[0][1] * v[1] + m[0][2] * v[2],
+            m[1][0] * v[0] + m[1][1] * v[1] + m[1][2] * v[2],
             m[2][0] * v[0] + m[2][1] * v[1] + m[2][2] * v[2]};
 }
 constexpr Colour white = times(xyz_of_rgb, {1, 1, 1});
@@ -153,14 +154,16 @@ public:
         : deviation_(0.5 * detector_width * pixels_per_degree),
           blur_(detector([](double, double g) { return g; })),
           edge_(detector([](double x, double g) { return -x * g; })),
-          point_(detector([this](double x, double g) { return (x * x / (deviation_ * deviation_) - 1) * g; })),
+          point_(
+              detector([this](double x, double g) { return (x * x / (deviation_ * deviation_) - 1) * g; })),
           most_(largest_distance()) {
         blur_.scale(1 / blur_.sum());
         edge_.balance();
         point_.balance();
         // Contrast sensitivity: achromatic, red-green, and blue-yellow as a sum of two Gaussians.
         constexpr double widest = 0.04;
-        const int radius = static_cast<int>(std::ceil(3 * std::sqrt(widest / (2 * pi * pi)) * pixels_per_degree));
+        const int radius =
+            static_cast<int>(std::ceil(3 * std::sqrt(widest / (2 * pi * pi)) * pixels_per_degree));
         const auto gaussian = [&](double b) {
             return Kernel(radius, [&](double x) {
                 const double degrees = x / pixels_per_degree;
@@ -213,7 +216,8 @@ public:
         std::vector<float> out(a.lab.size());
         for (std::size_t i = 0; i < out.size(); ++i) {
             const double colour = redistributed(std::pow(hyab(a.lab[i], b.lab[i]), colour_exponent), most_);
-            const double feature = std::max(std::abs(a.edges[i] - b.edges[i]), std::abs(a.points[i] - b.points[i]));
+            const double feature =
+                std::max(std::abs(a.edges[i] - b.edges[i]), std::abs(a.points[i] - b.points[i]));
             const double power = 1 - std::pow(feature / std::sqrt(2.0), feature_exponent);
             out[i] = static_cast<float>(std::clamp(std::pow(colour, power), 0.0, 1.0));
         }
@@ -228,9 +232,8 @@ private:
 
     template <class Shape>
     Kernel detector(Shape shape) const {
-        return Kernel(static_cast<int>(std::ceil(3 * deviation_)), [&](double x) {
-            return shape(x, std::exp(-x * x / (2 * deviation_ * deviation_)));
-        });
+        return Kernel(static_cast<int>(std::ceil(3 * deviation_)),
+                      [&](double x) { return shape(x, std::exp(-x * x / (2 * deviation_ * deviation_))); });
     }
     static Plane smoothed(const Plane& in, Size size, const std::vector<Term>& terms) {
         Plane out(in.size());

@@ -32,8 +32,9 @@ void gather(const Scene& scene, const spatial::PhotonKd& photons, const Queries&
         spatial::NearestSet found;
         spatial::WalkRecorder recorder;
     };
-    tbb::enumerable_thread_specific<Searcher> searchers(
-        [&] { return Searcher{spatial::NearestSet(k, config.radius), {}}; });
+    tbb::enumerable_thread_specific<Searcher> searchers([&] {
+        return Searcher{spatial::NearestSet(k, config.radius), {}};
+    });
 
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
         Searcher& searcher = searchers.local();
@@ -45,9 +46,9 @@ void gather(const Scene& scene, const spatial::PhotonKd& photons, const Queries&
             gathered.walk_bytes[q] = searcher.recorder.finish();
             chunks[c].found += searcher.found.size();
             const Material& material = scene.materials[scene.triangle_material[queries.triangle[q]]];
-            gathered.radiance[q] =
-                reflected_radiance(photons, searcher.found, {&material, queries.normal[q], -queries.direction[q]}, config.filter,
-                                   config.surface_check);
+            gathered.radiance[q] = reflected_radiance(photons, searcher.found,
+                                                      {&material, queries.normal[q], -queries.direction[q]},
+                                                      config.filter, config.surface_check);
         }
         const std::span<const std::uint8_t> walks = searcher.recorder.bytes();
         chunks[c].walks.assign(walks.begin(), walks.end());

@@ -16,8 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 
 template <class Value>
-void write(const fs::path& path, std::uint32_t width, std::uint32_t height, const std::vector<std::string>& names,
-           const std::vector<Value>& values, OIIO::TypeDesc type, const char* color_space) {
+void write(const fs::path& path, std::uint32_t width, std::uint32_t height,
+           const std::vector<std::string>& names, const std::vector<Value>& values, OIIO::TypeDesc type,
+           const char* color_space) {
     fs::path partial = path.parent_path() / fmt::format("partial-{}", path.filename().string());
     const auto fail = [&](const std::string& what) {
         fs::remove(partial);
@@ -25,7 +26,8 @@ void write(const fs::path& path, std::uint32_t width, std::uint32_t height, cons
     };
     const auto output = OIIO::ImageOutput::create(path.string());
     if (!output) fail(OIIO::geterror());
-    OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height), static_cast<int>(names.size()), type);
+    OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height), static_cast<int>(names.size()),
+                         type);
     spec.channelnames = names;
     spec.attribute("oiio:ColorSpace", color_space);
     spec.attribute("compression", "zip");
@@ -44,9 +46,12 @@ float to_srgb(float linear) {
 
 float toned(float x, Tone tone) {
     switch (tone) {
-        case Tone::exponential: return 1 - std::exp(-x);
-        case Tone::linear: return std::min(x, 1.0f);
-        case Tone::aces: return std::min(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f), 1.0f);
+        case Tone::exponential:
+            return 1 - std::exp(-x);
+        case Tone::linear:
+            return std::min(x, 1.0f);
+        case Tone::aces:
+            return std::min(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f), 1.0f);
     }
     return 0;
 }
@@ -59,7 +64,8 @@ void write_exr(const fs::path& path, const Image& image) {
     write_exr(path, image.width, image.height, channels_of(image, ""));
 }
 
-void write_exr(const fs::path& path, std::uint32_t width, std::uint32_t height, std::span<const Channel> channels) {
+void write_exr(const fs::path& path, std::uint32_t width, std::uint32_t height,
+               std::span<const Channel> channels) {
     std::vector<std::string> names;
     for (const Channel& channel : channels) names.push_back(channel.name);
     std::vector<float> values;
@@ -90,7 +96,8 @@ void write_png(const fs::path& path, const Image& image, float exposure, Tone to
     write_png(path, image.width, image.height, values);
 }
 
-void write_png(const fs::path& path, std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t> values) {
+void write_png(const fs::path& path, std::uint32_t width, std::uint32_t height,
+               std::vector<std::uint8_t> values) {
     write(path, width, height, rgb, values, OIIO::TypeDesc::UINT8, "sRGB");
 }
 
@@ -106,7 +113,8 @@ Image read_image(const fs::path& path) {
     if (!input) throw trace::DataError(fmt::format("{}: {}", path.string(), OIIO::geterror()));
     const OIIO::ImageSpec& spec = input->spec();
     if (spec.nchannels < 3)
-        throw trace::DataError(fmt::format("{}: found {} channels, expected 3", path.string(), spec.nchannels));
+        throw trace::DataError(
+            fmt::format("{}: found {} channels, expected 3", path.string(), spec.nchannels));
     Image image{static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), {}};
     image.pixels.resize(std::size_t{image.width} * image.height);
     if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, image.pixels.data()))

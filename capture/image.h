@@ -18,8 +18,12 @@ struct Image {
 };
 
 /// Of linear RGB with the primaries of Rec. 709 and sRGB.
-inline double luminance(double red, double green, double blue) { return 0.2126 * red + 0.7152 * green + 0.0722 * blue; }
-inline double luminance(trace::Vec3 rgb) { return luminance(rgb.x, rgb.y, rgb.z); }
+inline double luminance(double red, double green, double blue) {
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+}
+inline double luminance(trace::Vec3 rgb) {
+    return luminance(rgb.x, rgb.y, rgb.z);
+}
 
 /// 32-bit float EXR; written beside and renamed, so that no half image has this name. Throws
 /// std::runtime_error.
@@ -31,22 +35,26 @@ struct Channel {
     std::vector<float> values;  ///< In row order.
 };
 /// The same for any channels; all have `width` x `height` values.
-void write_exr(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, std::span<const Channel> channels);
+void write_exr(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
+               std::span<const Channel> channels);
 /// An image as three channels; `layer` is empty for the picture itself.
 std::vector<Channel> channels_of(const Image& image, const std::string& layer);
 
-/// The curve between exposed radiance x and the screen, before the sRGB curve: 1 - exp(-x), min(x, 1), or the fit of the ACES
-/// filmic curve by Narkowicz ("ACES Filmic Tone Mapping Curve", 2015).
+/// The curve between exposed radiance x and the screen, before the sRGB curve: 1 - exp(-x), min(x, 1), or the
+/// fit of the ACES filmic curve by Narkowicz ("ACES Filmic Tone Mapping Curve", 2015).
 enum class Tone : std::uint8_t { exponential, linear, aces };
 inline constexpr std::array<const char*, 3> tone_names{"exponential", "linear", "aces"};
 
 /// 8-bit sRGB view of radiance times `exposure`.
-void write_png(const std::filesystem::path& path, const Image& image, float exposure, Tone tone = Tone::exponential);
+void write_png(const std::filesystem::path& path, const Image& image, float exposure,
+               Tone tone = Tone::exponential);
 
 /// 8-bit sRGB pixels, three bytes each.
-void write_png(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t> rgb);
+void write_png(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
+               std::vector<std::uint8_t> rgb);
 
-/// Exposure that takes the mean luminance of the image to a middle tone (0.25 before the sRGB curve); 1 for a black image.
+/// Exposure that takes the mean luminance of the image to a middle tone (0.25 before the sRGB curve); 1 for a
+/// black image.
 float middle_exposure(const Image& image);
 
 /// The first three channels. Throws trace::DataError when the file is no RGB image.

@@ -22,11 +22,12 @@ void check_finite(const Image& image, const char* what) {
 
 void check_comparable(const Image& image, const Image& reference, const char* what) {
     if (image.width != reference.width || image.height != reference.height)
-        throw trace::DataError(fmt::format("{}: found {} x {} pixels, expected the reference's {} x {}", what, image.width,
-                                           image.height, reference.width, reference.height));
+        throw trace::DataError(fmt::format("{}: found {} x {} pixels, expected the reference's {} x {}", what,
+                                           image.width, image.height, reference.width, reference.height));
     if (reference.pixels.empty() || image.pixels.size() != reference.pixels.size())
-        throw trace::DataError(fmt::format("{}: found {} pixels beside {} of the reference, expected as many, at least one",
-                                           what, image.pixels.size(), reference.pixels.size()));
+        throw trace::DataError(
+            fmt::format("{}: found {} pixels beside {} of the reference, expected as many, at least one",
+                        what, image.pixels.size(), reference.pixels.size()));
     check_finite(image, what);
     check_finite(reference, "reference");
 }

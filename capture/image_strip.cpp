@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 using Rgb = std::array<std::uint8_t, 3>;
 
 constexpr std::uint32_t least_panel = 256, margin = 10, letter_scale = 2, letter_width = 6 * letter_scale,
-                        letter_height = 8 * letter_scale, text_gap = 6, bar_width = 16, tick = 5, bar_letters = 6;
+                        letter_height = 8 * letter_scale, text_gap = 6, bar_width = 16, tick = 5,
+                        bar_letters = 6;
 constexpr Rgb paper{255, 255, 255}, ink{32, 32, 32};
 
 Rgb shown(trace::Vec3 radiance, float exposure) {
@@ -24,7 +25,8 @@ Rgb shown(trace::Vec3 radiance, float exposure) {
     for (int c = 0; c < 3; ++c) {
         const float x = 1 - std::exp(-std::max(0.0f, radiance[c] * exposure));
         const float srgb = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
-        out[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::clamp(srgb * 255 + 0.5f, 0.0f, 255.0f));
+        out[static_cast<std::size_t>(c)] =
+            static_cast<std::uint8_t>(std::clamp(srgb * 255 + 0.5f, 0.0f, 255.0f));
     }
     return out;
 }
@@ -46,14 +48,15 @@ public:
                 for (std::uint32_t row = 0; row < 8; ++row)
                     for (std::uint32_t column = 0; column < 5; ++column)
                         if ((glyph.rows[row] >> (4 - column) & 1) != 0)
-                            fill(x + column * letter_scale, y + row * letter_scale, letter_scale, letter_scale, ink);
+                            fill(x + column * letter_scale, y + row * letter_scale, letter_scale,
+                                 letter_scale, ink);
             }
             x += letter_width;
         }
     }
     template <class Colour>
-    void panel(std::uint32_t x, std::uint32_t y, std::uint32_t columns, std::uint32_t rows, std::uint32_t scale,
-               Colour colour) {
+    void panel(std::uint32_t x, std::uint32_t y, std::uint32_t columns, std::uint32_t rows,
+               std::uint32_t scale, Colour colour) {
         for (std::uint32_t j = 0; j < rows; ++j)
             for (std::uint32_t i = 0; i < columns; ++i)
                 fill(x + i * scale, y + j * scale, scale, scale, colour(std::size_t{j} * columns + i));
@@ -88,12 +91,14 @@ float error_range(const std::vector<float>& errors) {
     if (bound <= 0) return 0.01f;
     const double decade = std::pow(10.0, std::floor(std::log10(static_cast<double>(bound))));
     for (const double digit : {1.0, 2.0, 5.0})
-        if (static_cast<double>(bound) <= digit * decade * (1 + 1e-6)) return static_cast<float>(digit * decade);
+        if (static_cast<double>(bound) <= digit * decade * (1 + 1e-6))
+            return static_cast<float>(digit * decade);
     return static_cast<float>(10 * decade);
 }
 
 Rgb false_colour(float error, float range) {
-    // Blue and red of one lightness, both safe for colour-blind readers; between them and white straight lines.
+    // Blue and red of one lightness, both safe for colour-blind readers; between them and white straight
+    // lines.
     constexpr std::array<float, 3> cold{33, 102, 172}, warm{178, 24, 43}, none{255, 255, 255};
     const float t = std::clamp(error / range, -1.0f, 1.0f), size = std::abs(t);
     Rgb out{};
@@ -107,7 +112,8 @@ Picture image_strip(const Image& image, const Image& reference, const StripText&
     const float range = error_range(errors), exposure = middle_exposure(reference);
     const std::uint32_t columns = reference.width, rows = reference.height;
     const std::uint32_t scale = std::max(1u, (least_panel + columns - 1) / columns);
-    const std::uint32_t panel = columns * scale, height = rows * scale, top = margin + letter_height + text_gap;
+    const std::uint32_t panel = columns * scale, height = rows * scale,
+                        top = margin + letter_height + text_gap;
     const std::uint32_t bar = 3 * (panel + margin) + margin;
     Canvas canvas(bar + bar_width + tick + text_gap + bar_letters * letter_width + margin,
                   top + std::max(height, 4 * letter_height) + margin);
@@ -118,14 +124,19 @@ Picture image_strip(const Image& image, const Image& reference, const StripText&
     title(margin, text.image);
     title(second, text.reference);
     title(third, "error");
-    canvas.panel(margin, top, columns, rows, scale, [&](std::size_t i) { return shown(image.pixels[i], exposure); });
-    canvas.panel(second, top, columns, rows, scale, [&](std::size_t i) { return shown(reference.pixels[i], exposure); });
-    canvas.panel(third, top, columns, rows, scale, [&](std::size_t i) { return false_colour(errors[i], range); });
+    canvas.panel(margin, top, columns, rows, scale,
+                 [&](std::size_t i) { return shown(image.pixels[i], exposure); });
+    canvas.panel(second, top, columns, rows, scale,
+                 [&](std::size_t i) { return shown(reference.pixels[i], exposure); });
+    canvas.panel(third, top, columns, rows, scale,
+                 [&](std::size_t i) { return false_colour(errors[i], range); });
 
     canvas.fill(bar - 1, top - 1, bar_width + 2, height + 2, ink);
     for (std::uint32_t y = 0; y < height; ++y)
-        canvas.fill(bar, top + y, bar_width, 1,
-                    false_colour(range * (1 - 2 * (static_cast<float>(y) + 0.5f) / static_cast<float>(height)), range));
+        canvas.fill(
+            bar, top + y, bar_width, 1,
+            false_colour(range * (1 - 2 * (static_cast<float>(y) + 0.5f) / static_cast<float>(height)),
+                         range));
     const std::string bound = fmt::format("{:.3g}%", 100 * static_cast<double>(range));
     const auto mark = [&](std::uint32_t y, std::uint32_t text_y, const std::string& label) {
         canvas.fill(bar + bar_width, y, tick, 1, ink);

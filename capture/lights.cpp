@@ -16,24 +16,34 @@ using Wide = std::array<double, 3>;
 constexpr std::size_t most_single_lights = 64;
 constexpr double rounding = 0x1p-20;  // of float coordinates: a few times their own
 
-Wide widened(Vec3 v) { return {v.x, v.y, v.z}; }
-double dot(const Wide& a, const Wide& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Wide difference(const Wide& a, const Wide& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Wide widened(Vec3 v) {
+    return {v.x, v.y, v.z};
+}
+double dot(const Wide& a, const Wide& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Wide difference(const Wide& a, const Wide& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 Wide cross(const Wide& a, const Wide& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-double component_sum(Vec3 v) { return static_cast<double>(v.x) + v.y + v.z; }
+double component_sum(Vec3 v) {
+    return static_cast<double>(v.x) + v.y + v.z;
+}
 
 /// Rounded once: a point of a plane z = constant has that z to the last bit.
 Vec3 spanned(Vec3 corner, Vec3 edge_u, double u, Vec3 edge_v, double v) {
-    return {static_cast<float>(corner.x + edge_u.x * u + edge_v.x * v), static_cast<float>(corner.y + edge_u.y * u + edge_v.y * v),
+    return {static_cast<float>(corner.x + edge_u.x * u + edge_v.x * v),
+            static_cast<float>(corner.y + edge_u.y * u + edge_v.y * v),
             static_cast<float>(corner.z + edge_u.z * u + edge_v.z * v)};
 }
 
 /// Where `at` falls in rising partial sums, at a step of more than 0.
 std::size_t find_step(std::span<const double> cumulative, double at) {
     auto step = std::upper_bound(cumulative.begin(), cumulative.end(), at);
-    if (step == cumulative.end()) step = std::lower_bound(cumulative.begin(), cumulative.end(), cumulative.back());
+    if (step == cumulative.end())
+        step = std::lower_bound(cumulative.begin(), cumulative.end(), cumulative.back());
     return static_cast<std::size_t>(step - cumulative.begin());
 }
 
@@ -46,12 +56,14 @@ LightSampler::LightSampler(const Scene& scene) : scene_(scene), lights_(scene.li
         if (!(lights_[l].bound.power > 0)) continue;
         order_.push_back(l);
         for (int c = 0; c < 3; ++c)
-            power[static_cast<std::size_t>(c)] += std::numbers::pi * scene.lights[l].radiance[c] / lights_[l].density;
+            power[static_cast<std::size_t>(c)] +=
+                std::numbers::pi * scene.lights[l].radiance[c] / lights_[l].density;
     }
     total_power_ = {static_cast<float>(power[0]), static_cast<float>(power[1]), static_cast<float>(power[2])};
 
     const std::size_t lit = order_.size();
-    divide(0, lit, lit <= most_single_lights ? 1 : static_cast<std::size_t>(std::sqrt(static_cast<double>(lit))));
+    divide(0, lit,
+           lit <= most_single_lights ? 1 : static_cast<std::size_t>(std::sqrt(static_cast<double>(lit))));
     if (lit > 0) group_first_.push_back(lit);
     double sum = 0;
     for (const std::uint32_t l : order_) cumulative_power_.push_back(sum += lights_[l].bound.power);
@@ -83,12 +95,14 @@ void LightSampler::measure(std::uint32_t l) {
             areas_.push_back(area += scenes::triangle_area(corner(t, 0), corner(t, 1), corner(t, 2)));
             for (std::size_t i = 0; i < 3; ++i) enclose(widened(corner(t, i)));
             const Wide a = widened(corner(t, 0));
-            const Wide part = cross(difference(widened(corner(t, 1)), a), difference(widened(corner(t, 2)), a));
+            const Wide part =
+                cross(difference(widened(corner(t, 1)), a), difference(widened(corner(t, 2)), a));
             for (std::size_t axis = 0; axis < 3; ++axis) normal[axis] += 0.5 * part[axis];
         }
     } else {
         for (const float u : {0.0f, 1.0f})
-            for (const float v : {0.0f, 1.0f}) enclose(widened(light.corner + light.edge_u * u + light.edge_v * v));
+            for (const float v : {0.0f, 1.0f})
+                enclose(widened(light.corner + light.edge_u * u + light.edge_v * v));
         normal = cross(widened(light.edge_u), widened(light.edge_v));
         area = std::sqrt(dot(normal, normal));
     }
@@ -112,10 +126,12 @@ void LightSampler::measure(std::uint32_t l) {
     for (std::uint32_t t = first; t < last; ++t)
         for (std::size_t i = 0; i < 3; ++i)
             bound.plane_slack = std::max(
-                bound.plane_slack, largest * rounding + std::fabs(dot(normal, widened(corner(t, i))) - bound.plane_offset));
+                bound.plane_slack,
+                largest * rounding + std::fabs(dot(normal, widened(corner(t, i))) - bound.plane_offset));
 }
 
-/// Groups of at most `most` neighbours among order_[first, last): halves along the longest side of their centres.
+/// Groups of at most `most` neighbours among order_[first, last): halves along the longest side of their
+/// centres.
 void LightSampler::divide(std::size_t first, std::size_t last, std::size_t most) {
     if (first == last) return;
     Bound all = lights_[order_[first]].bound;
@@ -127,7 +143,8 @@ void LightSampler::divide(std::size_t first, std::size_t last, std::size_t most)
         }
     }
     if (last - first <= most) {
-        for (std::size_t i = first; i < last; ++i) lights_[order_[i]].group = static_cast<std::uint32_t>(groups_.size());
+        for (std::size_t i = first; i < last; ++i)
+            lights_[order_[i]].group = static_cast<std::uint32_t>(groups_.size());
         if (last - first > 1) {
             all.power = 0;
             for (std::size_t i = first; i < last; ++i) all.power += lights_[order_[i]].bound.power;
@@ -141,10 +158,14 @@ void LightSampler::divide(std::size_t first, std::size_t last, std::size_t most)
     }
     const Wide size = difference(all.high, all.low);
     const auto axis = static_cast<std::size_t>(std::max_element(size.begin(), size.end()) - size.begin());
-    const auto centre = [&](std::uint32_t l) { return lights_[l].bound.low[axis] + lights_[l].bound.high[axis]; };
+    const auto centre = [&](std::uint32_t l) {
+        return lights_[l].bound.low[axis] + lights_[l].bound.high[axis];
+    };
     const std::size_t middle = first + (last - first) / 2;
-    std::nth_element(order_.begin() + static_cast<std::ptrdiff_t>(first), order_.begin() + static_cast<std::ptrdiff_t>(middle),
-                     order_.begin() + static_cast<std::ptrdiff_t>(last), [&](std::uint32_t a, std::uint32_t b) {
+    std::nth_element(order_.begin() + static_cast<std::ptrdiff_t>(first),
+                     order_.begin() + static_cast<std::ptrdiff_t>(middle),
+                     order_.begin() + static_cast<std::ptrdiff_t>(last),
+                     [&](std::uint32_t a, std::uint32_t b) {
                          return centre(a) != centre(b) ? centre(a) < centre(b) : a < b;
                      });
     divide(first, middle, most);
@@ -156,15 +177,19 @@ std::span<const std::uint32_t> LightSampler::members(std::size_t group) const {
 }
 
 Emission LightSampler::emit(Sampler& sampler) const {
-    const std::size_t chosen = find_step(cumulative_power_, sampler.fine_uniform() * cumulative_power_.back());
+    const std::size_t chosen =
+        find_step(cumulative_power_, sampler.fine_uniform() * cumulative_power_.back());
     const std::uint32_t light = order_[chosen];
     const double u = sampler.fine_uniform(), v = sampler.fine_uniform();
     const float s = sampler.uniform(), t = sampler.uniform();
     const LightPoint from = sample_light(light, u, v);
     const double factor = cumulative_power_.back() / component_sum(from.radiance);
     const auto power = [&](float radiance) { return static_cast<float>(radiance * factor); };
-    return {from.position, from.normal, Frame(from.normal).to_world(cosine_hemisphere(s, t)),
-            {power(from.radiance.x), power(from.radiance.y), power(from.radiance.z)}, light};
+    return {from.position,
+            from.normal,
+            Frame(from.normal).to_world(cosine_hemisphere(s, t)),
+            {power(from.radiance.x), power(from.radiance.y), power(from.radiance.z)},
+            light};
 }
 
 LightPoint LightSampler::sample_light(std::uint32_t l, double u, double v) const {
@@ -175,23 +200,27 @@ LightPoint LightSampler::sample_light(std::uint32_t l, double u, double v) const
         point.normal = light.normal();
         return point;
     }
-    const std::span<const double> areas = std::span(areas_).subspan(lights_[l].first_area, light.triangle_count);
+    const std::span<const double> areas =
+        std::span(areas_).subspan(lights_[l].first_area, light.triangle_count);
     const double at = u * areas.back();
     const std::size_t step = find_step(areas, at);
     const double before = step == 0 ? 0 : areas[step - 1];
     const double again = std::clamp((at - before) / (areas[step] - before), 0.0, 1.0);
     const auto& corners = scene_.triangles[light.first_triangle + step];
-    const Vec3 a = scene_.vertices[corners[0]], b = scene_.vertices[corners[1]], c = scene_.vertices[corners[2]];
+    const Vec3 a = scene_.vertices[corners[0]], b = scene_.vertices[corners[1]],
+               c = scene_.vertices[corners[2]];
     const double root = std::sqrt(again);
     point.position = spanned(a, b - a, root * (1 - v), c - a, root * v);
-    const Wide wide_a = widened(a), normal = cross(difference(widened(b), wide_a), difference(widened(c), wide_a));
+    const Wide wide_a = widened(a),
+               normal = cross(difference(widened(b), wide_a), difference(widened(c), wide_a));
     const double scale = 1 / std::sqrt(dot(normal, normal));
     point.normal = {static_cast<float>(normal[0] * scale), static_cast<float>(normal[1] * scale),
                     static_cast<float>(normal[2] * scale)};
     return point;
 }
 
-/// Power over squared distance, with the most that the cosines can be: height over the plane through the distance.
+/// Power over squared distance, with the most that the cosines can be: height over the plane through the
+/// distance.
 double LightSampler::estimate(const Bound& bound, const View& view) {
     double distance2 = 0, above = 0, size = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -199,7 +228,8 @@ double LightSampler::estimate(const Bound& bound, const View& view) {
         const double middle = 0.5 * (low + high), side = view.side_[axis];
         distance2 += middle * middle;
         above += std::max(side * low, side * high);
-        size += std::fabs(side) * (std::fabs(x) + std::max(std::fabs(bound.low[axis]), std::fabs(bound.high[axis])));
+        size += std::fabs(side) *
+                (std::fabs(x) + std::max(std::fabs(bound.low[axis]), std::fabs(bound.high[axis])));
     }
     const double slack = size * rounding;
     if (above < -slack) return 0;
@@ -207,7 +237,8 @@ double LightSampler::estimate(const Bound& bound, const View& view) {
     double cosines = 1;
     if (size > 0 && nearest > 0) cosines = std::min(1.0, std::max(above, slack) / nearest);
     if (bound.flat) {
-        const double x_size = std::fabs(view.position_[0]) + std::fabs(view.position_[1]) + std::fabs(view.position_[2]);
+        const double x_size =
+            std::fabs(view.position_[0]) + std::fabs(view.position_[1]) + std::fabs(view.position_[2]);
         const double height = dot(bound.plane_normal, view.position_) - bound.plane_offset;
         const double plane_slack = bound.plane_slack + x_size * rounding;
         if (height < -plane_slack) return 0;
@@ -221,7 +252,8 @@ void LightSampler::look(Vec3 position, Vec3 side, View& view) const {
     view.side_ = widened(side);
     view.cumulative_.resize(groups_.size());
     view.total_ = 0;
-    for (std::size_t g = 0; g < groups_.size(); ++g) view.cumulative_[g] = view.total_ += estimate(groups_[g], view);
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+        view.cumulative_[g] = view.total_ += estimate(groups_[g], view);
 }
 
 double LightSampler::share(const View& view, std::uint32_t light) const {
@@ -241,7 +273,8 @@ bool LightSampler::sample(const View& view, double choice, double u, double v, L
     if (view.dark()) return false;
     const double at = choice * view.total_;
     const std::size_t group = find_step(view.cumulative_, at);
-    const double before = group == 0 ? 0 : view.cumulative_[group - 1], of_group = view.cumulative_[group] - before;
+    const double before = group == 0 ? 0 : view.cumulative_[group - 1],
+                 of_group = view.cumulative_[group] - before;
     const std::span<const std::uint32_t> all = members(group);
     std::uint32_t light = all.front();
     double chance = of_group / view.total_;

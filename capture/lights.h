@@ -1,12 +1,12 @@
 // capture/lights.h -- light leaving the area lights of a scene, and points on them as a surface sees them.
-// Emission: lights in proportion to their power, points evenly over their area, directions with density cos / pi.
-// Direct light: one light in proportion to an estimate from above of what it can send to the point, power / distance^2
-// with bounds of both cosines (after Conty Estevez & Kulla, "Importance Sampling of Many Lights with Adaptive Tree
-// Splitting", HPG 2018, with two levels in place of a tree), then a point evenly over its area.
-// Up to 64 lights: a look costs one estimate a light, a sample a binary search. More lights are put into about sqrt(lights)
-// groups of neighbours: a look costs one estimate a group, a sample or a density one estimate for each light of one group
-// (10,000 lights: 128 and at most 79; a few microseconds).
-// Lengths in scene units, radiance [W / (m^2 sr)], power [W], densities [1 / m^2].
+// Emission: lights in proportion to their power, points evenly over their area, directions with density cos /
+// pi. Direct light: one light in proportion to an estimate from above of what it can send to the point, power
+// / distance^2 with bounds of both cosines (after Conty Estevez & Kulla, "Importance Sampling of Many Lights
+// with Adaptive Tree Splitting", HPG 2018, with two levels in place of a tree), then a point evenly over its
+// area. Up to 64 lights: a look costs one estimate a light, a sample a binary search. More lights are put
+// into about sqrt(lights) groups of neighbours: a look costs one estimate a group, a sample or a density one
+// estimate for each light of one group (10,000 lights: 128 and at most 79; a few microseconds). Lengths in
+// scene units, radiance [W / (m^2 sr)], power [W], densities [1 / m^2].
 #pragma once
 #include <array>
 #include <cstddef>
@@ -26,7 +26,7 @@ using trace::Vec3;
 struct LightPoint {
     Vec3 position, normal;  ///< Unit normal on the outside, where the light emits.
     Vec3 radiance;
-    double pdf = 0;         ///< Per area; the chance of the light's choice included where there was one.
+    double pdf = 0;  ///< Per area; the chance of the light's choice included where there was one.
     std::uint32_t light = 0;
 };
 
@@ -63,18 +63,22 @@ public:
 
     /// Density over the area of one light; 0 for a light without area.
     double density(std::uint32_t light) const { return lights_[light].density; }
-    /// The point of one light for (u, v) in [0, 1)^2, with its density(): stratified pairs give stratified points.
+    /// The point of one light for (u, v) in [0, 1)^2, with its density(): stratified pairs give stratified
+    /// points.
     LightPoint sample_light(std::uint32_t light, double u, double v) const;
 
-    /// `side`: unit normal of the surface on the side that is lit; zero for a point that light reaches from all sides.
+    /// `side`: unit normal of the surface on the side that is lit; zero for a point that light reaches from
+    /// all sides.
     void look(Vec3 position, Vec3 side, View& view) const;
-    /// The chance that sample() takes this light. 0 only when it has no power, or certainly cannot light the point: it is wholly
-    /// below the horizon, or flat and the point is behind it.
+    /// The chance that sample() takes this light. 0 only when it has no power, or certainly cannot light the
+    /// point: it is wholly below the horizon, or flat and the point is behind it.
     double share(const View& view, std::uint32_t light) const;
     /// A light by `choice` and its point for (u, v), all in [0, 1). False: no light, which counts as black.
     bool sample(const View& view, double choice, double u, double v, LightPoint& point) const;
     /// The density with which sample() finds a given point of the light, wherever it is.
-    double pdf_area(const View& view, std::uint32_t light) const { return share(view, light) * density(light); }
+    double pdf_area(const View& view, std::uint32_t light) const {
+        return share(view, light) * density(light);
+    }
 
 private:
     /// What an estimate looks at: of a light, or of a group of them.
@@ -99,10 +103,10 @@ private:
     const Scene& scene_;
     std::vector<Light> lights_;
     std::vector<double> areas_;
-    std::vector<std::uint32_t> order_;        // lights with power, group by group
-    std::vector<std::size_t> group_first_;    // into order_, with an end
+    std::vector<std::uint32_t> order_;      // lights with power, group by group
+    std::vector<std::size_t> group_first_;  // into order_, with an end
     std::vector<Bound> groups_;
-    std::vector<double> cumulative_power_;    // over order_
+    std::vector<double> cumulative_power_;  // over order_
     Vec3 total_power_;
 };
 

@@ -20,16 +20,26 @@ using Rgb = std::array<double, 3>;
 
 constexpr std::uint64_t block_pixels = 64;
 constexpr double roulette_below = 0.25;  // of the throughput: shorter paths are worth their whole cost
-// Glass keeps light that smooth normals have turned below its critical angle, and loses none of it: a path of only specular
-// surfaces meets another roulette. Its mean length beyond is 64.
+// Glass keeps light that smooth normals have turned below its critical angle, and loses none of it: a path of
+// only specular surfaces meets another roulette. Its mean length beyond is 64.
 constexpr std::uint32_t specular_run = 64;
 constexpr double specular_chance = 1 - 1.0 / 64;
 
-Rgb widened(Vec3 v) { return {v.x, v.y, v.z}; }
-Rgb operator*(const Rgb& a, const Rgb& b) { return {a[0] * b[0], a[1] * b[1], a[2] * b[2]}; }
-Rgb operator*(const Rgb& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
-double largest(const Rgb& a) { return std::max({a[0], a[1], a[2]}); }
-bool is_finite(const Rgb& a) { return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]); }
+Rgb widened(Vec3 v) {
+    return {v.x, v.y, v.z};
+}
+Rgb operator*(const Rgb& a, const Rgb& b) {
+    return {a[0] * b[0], a[1] * b[1], a[2] * b[2]};
+}
+Rgb operator*(const Rgb& a, double s) {
+    return {a[0] * s, a[1] * s, a[2] * s};
+}
+double largest(const Rgb& a) {
+    return std::max({a[0], a[1], a[2]});
+}
+bool is_finite(const Rgb& a) {
+    return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+}
 
 /// Weight of a technique of density `own` beside another one of density `other`.
 double power_heuristic(double own, double other) {
@@ -62,13 +72,18 @@ double Moments::variance(std::size_t channel, std::uint64_t samples) const {
     return squares[channel] / ((n - 1) * n);
 }
 
-/// One path from the eye. Throughput and sums are doubles: after 10,000 surfaces of albedo 0.9999 the roundings of floats would
-/// show.
+/// One path from the eye. Throughput and sums are doubles: after 10,000 surfaces of albedo 0.9999 the
+/// roundings of floats would show.
 class PathTracer::Path {
 public:
     Path(const PathTracer& tracer, Sampler& sampler, View& view, PathCounts& counts)
-        : tracer_(tracer), scene_(tracer.scene_), caster_(tracer.caster_), lights_(tracer.lights_), sampler_(sampler),
-          view_(view), counts_(counts) {}
+        : tracer_(tracer),
+          scene_(tracer.scene_),
+          caster_(tracer.caster_),
+          lights_(tracer.lights_),
+          sampler_(sampler),
+          view_(view),
+          counts_(counts) {}
 
     Rgb follow(Vec3 origin, Vec3 direction) {
         origin_ = origin;
@@ -84,7 +99,8 @@ public:
             const Vec3 incoming = -direction_;
             const Surface at = surface_at(scene_, *hit, incoming);
             add_emission(*hit, at.front);
-            const bool goes_on = is_specular(*at.material) ? turn(*hit, at, incoming) : scatter_on(*hit, at, incoming);
+            const bool goes_on =
+                is_specular(*at.material) ? turn(*hit, at, incoming) : scatter_on(*hit, at, incoming);
             if (!goes_on || !survives()) break;
         }
         return radiance_;
@@ -100,13 +116,15 @@ private:
         if (light < 0 || !front) return;
         const auto l = static_cast<std::uint32_t>(light);
         double weight = 1;
-        // `density_` is 0 where no point on a light could have been chosen instead: at the eye and at specular surfaces.
+        // `density_` is 0 where no point on a light could have been chosen instead: at the eye and at
+        // specular surfaces.
         if (density_ > 0) {
             if (tracer_.config_.direct_light == DirectLight::lights_only) return;
             if (tracer_.config_.direct_light == DirectLight::both) {
                 const Vec3 path = hit.position - origin_;
                 const double cosine = -static_cast<double>(dot(hit.geometric_normal, direction_));
-                const double of_light = lights_.pdf_area(view_, l) * static_cast<double>(dot(path, path)) / cosine;
+                const double of_light =
+                    lights_.pdf_area(view_, l) * static_cast<double>(dot(path, path)) / cosine;
                 weight = power_heuristic(density_, of_light);
             }
         }
@@ -125,16 +143,17 @@ private:
         if (!(density_ > 0)) return false;
         const bool lambert = at.material->kind == MaterialKind::diffuse || at.material->specular == Vec3{};
         specular_ = 0;
-        throughput_ = throughput_ *
-                      (lambert ? widened(at.material->diffuse)  // f cos / pdf without its roundings
-                               : widened(brdf(*at.material, at.normal, direction_, incoming)) *
-                                     (static_cast<double>(dot(at.normal, direction_)) / density_));
+        throughput_ =
+            throughput_ * (lambert ? widened(at.material->diffuse)  // f cos / pdf without its roundings
+                                   : widened(brdf(*at.material, at.normal, direction_, incoming)) *
+                                         (static_cast<double>(dot(at.normal, direction_)) / density_));
         return true;
     }
 
     void add_direct_light(const Hit& hit, const Surface& at, Vec3 incoming) {
         lights_.look(hit.position, at.side, view_);
-        const double choice = sampler_.fine_uniform(), u = sampler_.fine_uniform(), v = sampler_.fine_uniform();
+        const double choice = sampler_.fine_uniform(), u = sampler_.fine_uniform(),
+                     v = sampler_.fine_uniform();
         LightPoint point;
         if (!lights_.sample(view_, choice, u, v, point)) return;
         const Vec3 path = point.position - origin_;
@@ -153,12 +172,12 @@ private:
         const double density = point.pdf * distance2 / cos_light;
         const double weight =
             tracer_.config_.direct_light == DirectLight::both ? power_heuristic(density, of_path) : 1;
-        add(throughput_ * widened(brdf(*at.material, at.normal, direction, incoming)) * widened(point.radiance) *
-            (static_cast<double>(dot(at.normal, direction)) * weight / density));
+        add(throughput_ * widened(brdf(*at.material, at.normal, direction, incoming)) *
+            widened(point.radiance) * (static_cast<double>(dot(at.normal, direction)) * weight / density));
     }
 
-    /// One branch of a specular surface. Radiance shrinks by the square of the index that the light leaves behind (Veach 1997,
-    /// section 5.2).
+    /// One branch of a specular surface. Radiance shrinks by the square of the index that the light leaves
+    /// behind (Veach 1997, section 5.2).
     bool turn(const Hit& hit, const Surface& at, Vec3 incoming) {
         density_ = 0;
         if (++specular_ > specular_run) {
@@ -169,7 +188,8 @@ private:
             throughput_ = throughput_ * widened(at.material->specular);
         } else {
             Vec3 through;
-            if (sampler_.fine_uniform() >= fresnel(dot(incoming, at.normal), at.eta()) && refracted(at, incoming, through)) {
+            if (sampler_.fine_uniform() >= fresnel(dot(incoming, at.normal), at.eta()) &&
+                refracted(at, incoming, through)) {
                 const double eta = at.eta();
                 throughput_ = throughput_ * (1 / (eta * eta));
                 compression_ *= eta * eta;
@@ -183,7 +203,8 @@ private:
         return true;
     }
 
-    /// Russian roulette by what is left of the light, its compression in glass set aside: it comes back on the way out.
+    /// Russian roulette by what is left of the light, its compression in glass set aside: it comes back on
+    /// the way out.
     bool survives() {
         if (!is_finite(throughput_)) {  // nor is the path's radiance, then
             radiance_[0] = std::numeric_limits<double>::quiet_NaN();
@@ -210,18 +231,24 @@ private:
     Rgb throughput_{1, 1, 1}, radiance_{};
     double compression_ = 1;
     std::uint32_t specular_ = 0;  // surfaces in a row
-    double density_ = 0;  // [1/sr] of direction_, beside that of points on lights
+    double density_ = 0;          // [1/sr] of direction_, beside that of points on lights
 };
 
-PathTracer::PathTracer(const Scene& scene, const RayCaster& caster, const LightSampler& lights, const PathConfig& config)
-    : scene_(scene), caster_(caster), lights_(lights), config_(config), plane_(scene.camera, config.width, config.height) {}
+PathTracer::PathTracer(const Scene& scene, const RayCaster& caster, const LightSampler& lights,
+                       const PathConfig& config)
+    : scene_(scene),
+      caster_(caster),
+      lights_(lights),
+      config_(config),
+      plane_(scene.camera, config.width, config.height) {}
 
 Rgb PathTracer::sample(std::uint32_t pixel, std::uint32_t number, View& view, PathCounts& counts) const {
     Sampler sampler(config_.seed, Stream::reference, pixel, number);
     const float x = static_cast<float>(pixel % config_.width) + sampler.uniform();
     const float y = static_cast<float>(pixel / config_.width) + sampler.uniform();
     ++counts.samples;
-    const Rgb radiance = Path(*this, sampler, view, counts).follow(scene_.camera.position, plane_.direction(x, y));
+    const Rgb radiance =
+        Path(*this, sampler, view, counts).follow(scene_.camera.position, plane_.direction(x, y));
     if (is_finite(radiance)) return radiance;
     counts.nonfinite.count(Stage::path);
     return {};
@@ -236,7 +263,8 @@ PathCounts PathTracer::add(std::span<Moments> pixels, std::uint32_t first, std::
     tbb::parallel_for(std::uint64_t{0}, blocks, [&](std::uint64_t block) {
         View view;
         PathCounts counts;
-        const std::uint64_t begin = block * block_pixels, end = std::min<std::uint64_t>(begin + block_pixels, pixels.size());
+        const std::uint64_t begin = block * block_pixels,
+                            end = std::min<std::uint64_t>(begin + block_pixels, pixels.size());
         for (std::uint64_t pixel = begin; pixel < end; ++pixel)
             for (std::uint32_t s = 0; s < count; ++s)
                 pixels[pixel].add(sample(static_cast<std::uint32_t>(pixel), first + s, view, counts),

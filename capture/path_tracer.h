@@ -1,8 +1,9 @@
-// capture/path_tracer.h -- the truth that images are measured against: unidirectional path tracing (Kajiya 1986) on the scene,
-// materials and lights of the photon mapper, with next-event estimation joined to the paths' own hits by multiple importance
-// sampling, power heuristic with exponent 2 (Veach & Guibas 1995). Unbiased: no path is cut by length, no value is clamped;
-// Russian roulette ends paths. Pixels are means over their square (box filter). Radiance [W / (m^2 sr)].
-// A sample depends on (scene, image size, seed, pixel, number of the sample) alone: not on threads, not on what came before.
+// capture/path_tracer.h -- the truth that images are measured against: unidirectional path tracing (Kajiya
+// 1986) on the scene, materials and lights of the photon mapper, with next-event estimation joined to the
+// paths' own hits by multiple importance sampling, power heuristic with exponent 2 (Veach & Guibas 1995).
+// Unbiased: no path is cut by length, no value is clamped; Russian roulette ends paths. Pixels are means over
+// their square (box filter). Radiance [W / (m^2 sr)]. A sample depends on (scene, image size, seed, pixel,
+// number of the sample) alone: not on threads, not on what came before.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -27,7 +28,8 @@ struct PathConfig {
     std::uint32_t width = 512, height = 512;  ///< [pixels]
     std::uint64_t seed = 1;
     DirectLight direct_light = DirectLight::both;
-    /// A net below the roulette, for boxes that absorb nothing: paths that meet it are counted, and lose what would have come after.
+    /// A net below the roulette, for boxes that absorb nothing: paths that meet it are counted, and lose what
+    /// would have come after.
     std::uint32_t most_surfaces = 1'000'000;
 };
 
@@ -40,8 +42,8 @@ struct PathCounts {
     friend bool operator==(const PathCounts&, const PathCounts&) = default;
 };
 
-/// Mean and spread of one pixel's samples, by channel (Welford 1962): numbers added one by one give the same bits however they
-/// are cut into runs.
+/// Mean and spread of one pixel's samples, by channel (Welford 1962): numbers added one by one give the same
+/// bits however they are cut into runs.
 struct Moments {
     std::array<double, 3> mean{};
     std::array<double, 3> squares{};  ///< Sum of squared distances from the mean.
@@ -56,13 +58,15 @@ static_assert(sizeof(Moments) == 48);
 class PathTracer {
 public:
     /// The scene, its lights and the caster outlive the tracer.
-    PathTracer(const Scene& scene, const RayCaster& caster, const LightSampler& lights, const PathConfig& config);
+    PathTracer(const Scene& scene, const RayCaster& caster, const LightSampler& lights,
+               const PathConfig& config);
 
     /// One sample of one pixel. `view` is scratch memory.
-    std::array<double, 3> sample(std::uint32_t pixel, std::uint32_t number, View& view, PathCounts& counts) const;
+    std::array<double, 3> sample(std::uint32_t pixel, std::uint32_t number, View& view,
+                                 PathCounts& counts) const;
 
-    /// Samples [first, first + count) of every pixel of the image, in parallel; those before are in `pixels`. `finished` is told
-    /// the number of pixels done, from any thread.
+    /// Samples [first, first + count) of every pixel of the image, in parallel; those before are in `pixels`.
+    /// `finished` is told the number of pixels done, from any thread.
     PathCounts add(std::span<Moments> pixels, std::uint32_t first, std::uint32_t count,
                    const std::function<void(std::uint64_t)>& finished = {}) const;
 

@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::uint32_t most_specular_in_a_row = 10'000;
 // Rounds of 32 blocks begin small and grow: where walls reflect nearly all, a few paths make all photons.
-constexpr std::uint64_t first_block_paths = 16, most_block_paths = 2048, round_blocks = 32, extra_paths = 100'000;
+constexpr std::uint64_t first_block_paths = 16, most_block_paths = 2048, round_blocks = 32,
+                        extra_paths = 100'000;
 
 void add(Power& sum, Vec3 power) {
     for (int c = 0; c < 3; ++c) sum[static_cast<std::size_t>(c)] += static_cast<double>(power[c]);
@@ -33,8 +34,14 @@ struct Block {
 
 class Tracer {
 public:
-    Tracer(const Scene& scene, const RayCaster& caster, const LightSampler& lights, const PhotonConfig& config)
-        : scene_(scene), caster_(caster), lights_(lights), seed_(config.seed), kind_(config.kind), most_(config.photons) {}
+    Tracer(const Scene& scene, const RayCaster& caster, const LightSampler& lights,
+           const PhotonConfig& config)
+        : scene_(scene),
+          caster_(caster),
+          lights_(lights),
+          seed_(config.seed),
+          kind_(config.kind),
+          most_(config.photons) {}
 
     Block trace(std::uint64_t first, std::uint64_t count) const {
         Block block;
@@ -51,12 +58,14 @@ private:
         PhotonTally& tally = block.tally;
         Sampler sampler(seed_, kind_ == PhotonKind::caustic ? Stream::caustic_photon : Stream::photon, path);
         const Emission from = lights_.emit(sampler);
-        Vec3 origin = caster_.offset(from.position, from.normal), direction = from.direction, power = from.power;
+        Vec3 origin = caster_.offset(from.position, from.normal), direction = from.direction,
+             power = from.power;
         add(tally.emitted, power);
 
         bool caustic = false, only_specular = true;
         // Of a block that has more photons than asked for, no later one is used.
-        for (std::uint32_t in_a_row = 0; in_a_row < most_specular_in_a_row && block.stored.size() <= most_; ++in_a_row) {
+        for (std::uint32_t in_a_row = 0; in_a_row < most_specular_in_a_row && block.stored.size() <= most_;
+             ++in_a_row) {
             const std::optional<Hit> hit = caster_.closest(origin, direction);
             if (!hit) return add(tally.escaped, power);
             const Vec3 incoming = -direction;
@@ -128,7 +137,8 @@ void scale(Power& power, double factor) {
 
 }  // namespace
 
-PhotonPass trace_photons(const Scene& scene, const RayCaster& caster, const LightSampler& lights, const PhotonConfig& config) {
+PhotonPass trace_photons(const Scene& scene, const RayCaster& caster, const LightSampler& lights,
+                         const PhotonConfig& config) {
     PhotonPass pass;
     if (lights.dark() || config.photons == 0) return pass;
     const Tracer tracer(scene, caster, lights, config);
@@ -138,8 +148,8 @@ PhotonPass trace_photons(const Scene& scene, const RayCaster& caster, const Ligh
     const std::uint64_t most_paths = std::uint64_t{config.paths_per_photon} * config.photons + extra_paths;
     std::vector<Block> blocks(round_blocks);
     std::uint64_t block_paths = first_block_paths;
-    for (std::uint64_t first = 0; stored.size() < config.photons && first < most_paths; first += round_blocks * block_paths,
-                       block_paths = std::min(4 * block_paths, most_block_paths)) {
+    for (std::uint64_t first = 0; stored.size() < config.photons && first < most_paths;
+         first += round_blocks * block_paths, block_paths = std::min(4 * block_paths, most_block_paths)) {
         tbb::parallel_for(std::uint64_t{0}, round_blocks, [&](std::uint64_t b) {
             blocks[b] = tracer.trace(first + b * block_paths, block_paths);
         });

@@ -14,13 +14,17 @@ namespace {
 constexpr float unlimited = std::numeric_limits<float>::infinity();
 constexpr std::size_t lights_sampled_each = 4;
 
-float component_sum(Vec3 v) { return v.x + v.y + v.z; }
-bool is_black(const Material& material) { return material.diffuse == Vec3{} && material.specular == Vec3{}; }
+float component_sum(Vec3 v) {
+    return v.x + v.y + v.z;
+}
+bool is_black(const Material& material) {
+    return material.diffuse == Vec3{} && material.specular == Vec3{};
+}
 
 }  // namespace
 
-PixelPaths::PixelPaths(const Scene& scene, const RayCaster& caster, const LightSampler& lights, const QueryConfig& config,
-                       PassParts parts, PixelWork& work)
+PixelPaths::PixelPaths(const Scene& scene, const RayCaster& caster, const LightSampler& lights,
+                       const QueryConfig& config, PassParts parts, PixelWork& work)
     : scene_(scene),
       caster_(caster),
       lights_(lights),
@@ -31,7 +35,8 @@ PixelPaths::PixelPaths(const Scene& scene, const RayCaster& caster, const LightS
 
 void PixelPaths::run(std::uint32_t pixel) {
     pixel_ = pixel;
-    const auto column = static_cast<float>(pixel % config_.width), row = static_cast<float>(pixel / config_.width);
+    const auto column = static_cast<float>(pixel % config_.width),
+               row = static_cast<float>(pixel / config_.width);
     const Strata strata(config_.samples);
     for (sample_ = 0; sample_ < config_.samples; ++sample_) {
         radiance_ = {};
@@ -43,7 +48,8 @@ void PixelPaths::run(std::uint32_t pixel) {
             x = place.along_columns;
             y = place.along_rows;
         }
-        follow_eye(scene_.camera.position, plane_.direction(column + x, row + y), {1, 1, 1}, 0, true, sampler);
+        follow_eye(scene_.camera.position, plane_.direction(column + x, row + y), {1, 1, 1}, 0, true,
+                   sampler);
         if (config_.visualisation == Visualisation::final_gather && config_.gather_rays > 0)
             share_gather_rays(std::max(1u, config_.gather_rays / config_.samples +
                                                (sample_ < config_.gather_rays % config_.samples ? 1 : 0)));
@@ -58,7 +64,8 @@ void PixelPaths::run(std::uint32_t pixel) {
         }
         LayeredRadiance& seen = work_.radiance.emplace_back();
         for (std::size_t l = 0; l < seen.size(); ++l)
-            seen[l] = {static_cast<float>(radiance_[l][0]), static_cast<float>(radiance_[l][1]), static_cast<float>(radiance_[l][2])};
+            seen[l] = {static_cast<float>(radiance_[l][0]), static_cast<float>(radiance_[l][1]),
+                       static_cast<float>(radiance_[l][2])};
     }
 }
 
@@ -90,13 +97,15 @@ std::uint64_t PixelPaths::stream_index(std::size_t shaded) const {
     return (sample_ * shaded_.size() + shaded) << 32 | pixel_;
 }
 
-PixelPaths::Branch PixelPaths::mirrored(const Hit& hit, const Surface& at, Vec3 incoming, Vec3 throughput) const {
+PixelPaths::Branch PixelPaths::mirrored(const Hit& hit, const Surface& at, Vec3 incoming,
+                                        Vec3 throughput) const {
     return {caster_.offset(hit.position, at.side), reflected(at, incoming), throughput};
 }
 
-/// The refracted branch of a dielectric; false at total internal reflection. Radiance shrinks by the square of
-/// the index that the light leaves behind (Veach 1997, section 5.2).
-bool PixelPaths::transmitted(const Hit& hit, const Surface& at, Vec3 incoming, Vec3 throughput, Branch& branch) const {
+/// The refracted branch of a dielectric; false at total internal reflection. Radiance shrinks by the square
+/// of the index that the light leaves behind (Veach 1997, section 5.2).
+bool PixelPaths::transmitted(const Hit& hit, const Surface& at, Vec3 incoming, Vec3 throughput,
+                             Branch& branch) const {
     Vec3 direction;
     if (!refracted(at, incoming, direction)) return false;
     branch = {caster_.offset(hit.position, -at.side), direction, throughput * (1 / (at.eta() * at.eta()))};
@@ -104,28 +113,32 @@ bool PixelPaths::transmitted(const Hit& hit, const Surface& at, Vec3 incoming, V
 }
 
 /// One branch of a specular surface, chosen by Fresnel's share.
-PixelPaths::Branch PixelPaths::choose_specular(const Hit& hit, const Surface& at, Vec3 incoming, Vec3 throughput,
-                                               Sampler& sampler) const {
-    if (at.material->kind == MaterialKind::mirror) return mirrored(hit, at, incoming, throughput * at.material->specular);
+PixelPaths::Branch PixelPaths::choose_specular(const Hit& hit, const Surface& at, Vec3 incoming,
+                                               Vec3 throughput, Sampler& sampler) const {
+    if (at.material->kind == MaterialKind::mirror)
+        return mirrored(hit, at, incoming, throughput * at.material->specular);
     Branch through;
     const float share = fresnel(dot(incoming, at.normal), at.eta());
     if (sampler.uniform() >= share && transmitted(hit, at, incoming, throughput, through)) return through;
     return mirrored(hit, at, incoming, throughput);
 }
 
-/// Follows an eye path through specular surfaces to the points that are shaded. The first dielectric splits the path.
-void PixelPaths::follow_eye(Vec3 origin, Vec3 direction, Vec3 throughput, std::uint32_t specular, bool may_split, Sampler& sampler) {
+/// Follows an eye path through specular surfaces to the points that are shaded. The first dielectric splits
+/// the path.
+void PixelPaths::follow_eye(Vec3 origin, Vec3 direction, Vec3 throughput, std::uint32_t specular,
+                            bool may_split, Sampler& sampler) {
     for (;;) {
         count(specular == 0 ? RayKind::eye : RayKind::specular, origin, direction, unlimited);
         const std::optional<Hit> hit = caster_.closest(origin, direction);
         if (!hit) return;
         const Vec3 incoming = -direction;
         const Surface at = surface_at(scene_, *hit, incoming);
-        add(Stage::eye, specular == 0 ? Layer::direct : Layer::specular, throughput * emitted(*hit, at.front));
+        add(Stage::eye, specular == 0 ? Layer::direct : Layer::specular,
+            throughput * emitted(*hit, at.front));
         if (!is_specular(*at.material)) {
             if (shaded_points_ < shaded_.size())
-                shaded_[shaded_points_++] = {hit->position, at.normal, at.side, incoming, throughput, at.material,
-                                             hit->triangle, specular > 0};
+                shaded_[shaded_points_++] = {hit->position, at.normal,   at.side,       incoming,
+                                             throughput,    at.material, hit->triangle, specular > 0};
             return;
         }
         if (++specular > config_.max_specular) return;
@@ -160,8 +173,9 @@ void PixelPaths::ask(Queries& queries, const Shaded& at, Layer layer) {
     queries.layer.push_back(at.specular ? Layer::specular : layer);
 }
 
-/// Where the light of an area light is looked for by shadow rays and by gather rays both, as on a glossy surface, each is weighted by
-/// the balance heuristic (Veach 1997, section 9.2.2): `density` is that of all samples of one kind together, per area or solid angle.
+/// Where the light of an area light is looked for by shadow rays and by gather rays both, as on a glossy
+/// surface, each is weighted by the balance heuristic (Veach 1997, section 9.2.2): `density` is that of all
+/// samples of one kind together, per area or solid angle.
 double PixelPaths::light_density(std::uint32_t light) const {
     if (config_.shadow_rays == 0) return 0;
     return config_.shadow_rays * (scene_.lights.size() <= lights_sampled_each
@@ -213,9 +227,11 @@ void PixelPaths::add_light_of(const Shaded& at, Vec3 origin, const LightPoint& p
     const double to_solid_angle = static_cast<double>(distance2) / cos_light;
     double all = density * to_solid_angle;
     if (at.material->kind == MaterialKind::glossy)
-        all += at.gather_rays * static_cast<double>(scatter_pdf(*at.material, at.normal, at.to_viewer, direction));
+        all += at.gather_rays *
+               static_cast<double>(scatter_pdf(*at.material, at.normal, at.to_viewer, direction));
     add(Stage::shadow, at.specular ? Layer::specular : Layer::direct,
-        at.throughput * f * point.radiance * static_cast<float>(static_cast<double>(dot(at.normal, direction)) / all));
+        at.throughput * f * point.radiance *
+            static_cast<float>(static_cast<double>(dot(at.normal, direction)) / all));
 }
 
 /// Gives each shaded point of the eye ray its share of the gather rays, by its throughput, and one at least.
@@ -254,15 +270,18 @@ void PixelPaths::add_gather_rays(const Shaded& at, std::size_t number) {
         double density = 0;
         if (glossy) {
             const float choice = sampler.uniform();
-            if (!sample_direction(*at.material, at.normal, at.to_viewer, choice, cell.along_rows, cell.along_columns, direction))
+            if (!sample_direction(*at.material, at.normal, at.to_viewer, choice, cell.along_rows,
+                                  cell.along_columns, direction))
                 continue;
-            density = rays * static_cast<double>(scatter_pdf(*at.material, at.normal, at.to_viewer, direction));
+            density =
+                rays * static_cast<double>(scatter_pdf(*at.material, at.normal, at.to_viewer, direction));
             if (!(density > 0)) continue;
             weight = at.throughput * brdf(*at.material, at.normal, direction, at.to_viewer) *
                      static_cast<float>(static_cast<double>(dot(at.normal, direction)) / density);
         } else {
             direction = frame.to_world(cosine_hemisphere(cell.along_rows, cell.along_columns));
-            weight = at.throughput * at.material->diffuse * (1 / static_cast<float>(rays));  // f cos over density cos / pi
+            weight = at.throughput * at.material->diffuse *
+                     (1 / static_cast<float>(rays));  // f cos over density cos / pi
         }
         if (!trace::is_finite(weight) || !trace::is_finite(direction)) {
             work_.nonfinite.count(Stage::gather);
@@ -273,8 +292,10 @@ void PixelPaths::add_gather_rays(const Shaded& at, std::size_t number) {
     }
 }
 
-/// `density`: of all gather rays of a glossy point, per solid angle; 0 when its lights are left to the shadow rays.
-void PixelPaths::follow_gather(const Shaded& at, Vec3 direction, Vec3 weight, double density, Sampler& sampler) {
+/// `density`: of all gather rays of a glossy point, per solid angle; 0 when its lights are left to the shadow
+/// rays.
+void PixelPaths::follow_gather(const Shaded& at, Vec3 direction, Vec3 weight, double density,
+                               Sampler& sampler) {
     Vec3 origin = caster_.offset(at.position, at.side);
     for (std::uint32_t specular = 0;; ++specular) {
         count(specular == 0 ? RayKind::gather : RayKind::specular, origin, direction, unlimited);
@@ -285,9 +306,10 @@ void PixelPaths::follow_gather(const Shaded& at, Vec3 direction, Vec3 weight, do
         const Vec3 light = emitted(*hit, met.front);
         if (light != Vec3{}) {
             if (specular == 0 && density > 0) {
-                const double from_light = light_density(static_cast<std::uint32_t>(scene_.triangle_light[hit->triangle])) *
-                                          static_cast<double>(hit->distance) * hit->distance /
-                                          static_cast<double>(dot(incoming, met.side));
+                const double from_light =
+                    light_density(static_cast<std::uint32_t>(scene_.triangle_light[hit->triangle])) *
+                    static_cast<double>(hit->distance) * hit->distance /
+                    static_cast<double>(dot(incoming, met.side));
                 add(Stage::gather, at.specular ? Layer::specular : Layer::direct,
                     weight * light * static_cast<float>(density / (density + from_light)));
             } else if (specular > 0 && !parts_.caustics) {

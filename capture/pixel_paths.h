@@ -1,5 +1,6 @@
-// capture/pixel_paths.h -- all that one pixel asks for: eye rays, specular recursion, direct light by stratified shadow rays, and
-// the points where photons are gathered (the paper, section 5.1, Figures 2 and 3, equations 2 and 3).
+// capture/pixel_paths.h -- all that one pixel asks for: eye rays, specular recursion, direct light by
+// stratified shadow rays, and the points where photons are gathered (the paper, section 5.1, Figures 2 and 3,
+// equations 2 and 3).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -14,8 +15,8 @@ namespace regather::capture {
 /// The pixels of one block, one after the other; scratch memory is kept between them.
 class PixelPaths {
 public:
-    PixelPaths(const Scene& scene, const RayCaster& caster, const LightSampler& lights, const QueryConfig& config, PassParts parts,
-               PixelWork& work);
+    PixelPaths(const Scene& scene, const RayCaster& caster, const LightSampler& lights,
+               const QueryConfig& config, PassParts parts, PixelWork& work);
 
     void run(std::uint32_t pixel);
 
@@ -38,8 +39,10 @@ private:
 
     Branch mirrored(const Hit& hit, const Surface& at, Vec3 incoming, Vec3 throughput) const;
     bool transmitted(const Hit& hit, const Surface& at, Vec3 incoming, Vec3 throughput, Branch& branch) const;
-    Branch choose_specular(const Hit& hit, const Surface& at, Vec3 incoming, Vec3 throughput, Sampler& sampler) const;
-    void follow_eye(Vec3 origin, Vec3 direction, Vec3 throughput, std::uint32_t specular, bool may_split, Sampler& sampler);
+    Branch choose_specular(const Hit& hit, const Surface& at, Vec3 incoming, Vec3 throughput,
+                           Sampler& sampler) const;
+    void follow_eye(Vec3 origin, Vec3 direction, Vec3 throughput, std::uint32_t specular, bool may_split,
+                    Sampler& sampler);
 
     void add_direct_light(const Shaded& at, std::size_t number);
     void add_light_of(const Shaded& at, Vec3 origin, const LightPoint& point, double density);

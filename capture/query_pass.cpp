@@ -69,8 +69,8 @@ void PixelWork::clear() {
     nonfinite = {};
 }
 
-QueryPass::QueryPass(const Scene& scene, const RayCaster& caster, const LightSampler& lights, const QueryConfig& config,
-                     PassParts parts)
+QueryPass::QueryPass(const Scene& scene, const RayCaster& caster, const LightSampler& lights,
+                     const QueryConfig& config, PassParts parts)
     : scene_(scene), caster_(caster), lights_(lights), config_(config), parts_(parts) {}
 
 void QueryPass::run(std::uint64_t first, std::uint64_t count, PixelWork& work) const {
@@ -79,7 +79,8 @@ void QueryPass::run(std::uint64_t first, std::uint64_t count, PixelWork& work) c
     tbb::parallel_for(std::uint64_t{0}, blocks, [&](std::uint64_t b) {
         PixelPaths paths(scene_, caster_, lights_, config_, parts_, parts[b]);
         const std::uint64_t end = std::min(count, (b + 1) * block_pixels);
-        for (std::uint64_t i = b * block_pixels; i < end; ++i) paths.run(static_cast<std::uint32_t>(first + i));
+        for (std::uint64_t i = b * block_pixels; i < end; ++i)
+            paths.run(static_cast<std::uint32_t>(first + i));
     });
     work.clear();
     for (const PixelWork& part : parts) work.append(part);

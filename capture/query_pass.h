@@ -1,5 +1,6 @@
-// capture/query_pass.h -- from pixels to photon gathers: eye rays, specular recursion, direct light by stratified shadow
-// rays, and final gather rays whose ends become kNN queries (the paper, section 5.1, Figure 3 and equation 3).
+// capture/query_pass.h -- from pixels to photon gathers: eye rays, specular recursion, direct light by
+// stratified shadow rays, and final gather rays whose ends become kNN queries (the paper, section 5.1, Figure
+// 3 and equation 3).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -11,7 +12,8 @@
 
 namespace regather::capture {
 
-/// What a non-specular surface that an eye path meets shows of the light that reaches it by way of other surfaces.
+/// What a non-specular surface that an eye path meets shows of the light that reaches it by way of other
+/// surfaces.
 enum class Visualisation : std::uint8_t {
     final_gather,  ///< Equation 3: gather rays, and photon gathers where they end.
     direct,        ///< Equation 2: one photon gather at the surface itself.
@@ -21,10 +23,12 @@ inline constexpr std::array<const char*, 2> visualisation_names{"final-gather", 
 struct QueryConfig {
     std::uint32_t width = 512, height = 512;  ///< [pixels]
     std::uint32_t gather_rays = 100;          ///< N a pixel, shared among its eye rays; the paper, Table 1.
-    std::uint32_t shadow_rays = 16;           ///< Per shaded point and light, of up to four lights; the paper, Table 2.
-    std::uint32_t max_specular = 16;          ///< Specular surfaces in a row, then the path ends.
-    std::uint32_t samples = 1;                ///< Eye rays a pixel, stratified over it; a single one goes through its centre ...
-    bool jitter = false;                      ///< ... or anywhere in the pixel.
+    std::uint32_t shadow_rays =
+        16;  ///< Per shaded point and light, of up to four lights; the paper, Table 2.
+    std::uint32_t max_specular = 16;  ///< Specular surfaces in a row, then the path ends.
+    std::uint32_t samples =
+        1;                ///< Eye rays a pixel, stratified over it; a single one goes through its centre ...
+    bool jitter = false;  ///< ... or anywhere in the pixel.
     Visualisation visualisation = Visualisation::final_gather;
     std::uint64_t seed = 1;
 };
@@ -37,8 +41,9 @@ inline constexpr std::array<const char*, 4> layer_names{"direct", "caustic", "in
 struct Queries {
     std::vector<Vec3> position, direction, weight;
     std::vector<std::uint32_t> pixel, triangle;
-    std::vector<Vec3> normal;          ///< Shading normal on the side that the ray met; not stored in traces, as are the next two.
-    std::vector<std::uint32_t> sample; ///< Eye ray of the pixel.
+    std::vector<Vec3>
+        normal;  ///< Shading normal on the side that the ray met; not stored in traces, as are the next two.
+    std::vector<std::uint32_t> sample;  ///< Eye ray of the pixel.
     std::vector<Layer> layer;
     std::size_t size() const { return position.size(); }
     void append(const Queries& other);
@@ -61,12 +66,14 @@ using LayeredRadiance = std::array<Vec3, layer_names.size()>;  ///< [W / (m^2 sr
 
 /// What a run of pixels asks for, and what it has gathered without photons.
 struct PixelWork {
-    Queries queries;          ///< Of the global map.
-    Queries caustic_queries;  ///< Of the caustic map, one at each shaded point; empty unless they are asked for.
+    Queries queries;  ///< Of the global map.
+    Queries
+        caustic_queries;  ///< Of the caustic map, one at each shaded point; empty unless they are asked for.
     std::array<Rays, 4> rays;  ///< By RayKind; empty unless they are kept.
     std::array<std::uint64_t, 4> ray_counts{};
-    std::vector<LayeredRadiance> radiance;  ///< Emission and direct light of each eye ray: pixel by pixel, sample by sample.
-    Nonfinite nonfinite;      ///< Contributions and queries that were left out.
+    std::vector<LayeredRadiance>
+        radiance;         ///< Emission and direct light of each eye ray: pixel by pixel, sample by sample.
+    Nonfinite nonfinite;  ///< Contributions and queries that were left out.
     void append(const PixelWork& other);
     void clear();
 };
@@ -74,13 +81,15 @@ struct PixelWork {
 /// What is kept and asked for besides the global map's queries.
 struct PassParts {
     bool rays = false;      ///< Keep the rays.
-    bool caustics = false;  ///< There is a caustic map: ask it, and let gather rays not look for lights by way of specular surfaces.
+    bool caustics = false;  ///< There is a caustic map: ask it, and let gather rays not look for lights by
+                            ///< way of specular surfaces.
 };
 
 class QueryPass {
 public:
     /// Scene, caster and lights outlive the pass.
-    QueryPass(const Scene& scene, const RayCaster& caster, const LightSampler& lights, const QueryConfig& config, PassParts parts);
+    QueryPass(const Scene& scene, const RayCaster& caster, const LightSampler& lights,
+              const QueryConfig& config, PassParts parts);
 
     /// Pixels [first, first + count) in row order, in parallel; the same on any number of threads.
     void run(std::uint64_t first, std::uint64_t count, PixelWork& work) const;

@@ -12,7 +12,9 @@ struct Even {
     float operator()(float) const { return 1; }
 };
 struct Cone {
-    float operator()(float share2) const { return (1 - cone_slope * std::sqrt(share2)) * (1 / (1 - cone_slope * (2 / 3.0f))); }
+    float operator()(float share2) const {
+        return (1 - cone_slope * std::sqrt(share2)) * (1 / (1 - cone_slope * (2 / 3.0f)));
+    }
 };
 struct Gaussian {
     float floor = 1 - 1 / (1 - std::exp(-beta)), peak = 1 / (1 - std::exp(-beta));
@@ -28,8 +30,8 @@ bool is_used(const trace::Photon& photon, const GatherPoint& at, bool surface_ch
 }
 
 template <class Weight>
-Vec3 weighted_sum(const spatial::PhotonKd& photons, const spatial::NearestSet& found, const GatherPoint& at, float radius2,
-                  bool surface_check, const Weight& weight) {
+Vec3 weighted_sum(const spatial::PhotonKd& photons, const spatial::NearestSet& found, const GatherPoint& at,
+                  float radius2, bool surface_check, const Weight& weight) {
     const std::span<const trace::Photon> nodes = photons.nodes();
     const bool diffuse = at.material->kind == MaterialKind::diffuse;
     const float per_radius2 = 1 / radius2;
@@ -40,7 +42,9 @@ Vec3 weighted_sum(const spatial::PhotonKd& photons, const spatial::NearestSet& f
         const trace::Photon& photon = nodes[neighbor.node];
         if (!is_used(photon, at, surface_check)) continue;
         const Vec3 power = trace::decode_power(photon.power) * weight(neighbor.distance2 * per_radius2);
-        const Vec3 part = diffuse ? power : brdf(*at.material, at.normal, -trace::decode_direction(photon), at.to_viewer) * power;
+        const Vec3 part =
+            diffuse ? power
+                    : brdf(*at.material, at.normal, -trace::decode_direction(photon), at.to_viewer) * power;
         red += static_cast<double>(part.x);
         green += static_cast<double>(part.y);
         blue += static_cast<double>(part.z);
@@ -51,12 +55,16 @@ Vec3 weighted_sum(const spatial::PhotonKd& photons, const spatial::NearestSet& f
 
 }  // namespace
 
-Vec3 reflected_radiance(const spatial::PhotonKd& photons, const spatial::NearestSet& found, const GatherPoint& at, Filter filter,
-                        bool surface_check) {
+Vec3 reflected_radiance(const spatial::PhotonKd& photons, const spatial::NearestSet& found,
+                        const GatherPoint& at, Filter filter, bool surface_check) {
     const float radius2 = found.disc_radius2();
     if (!(radius2 > 0)) return {};
-    const auto sum = [&](const auto& weight) { return weighted_sum(photons, found, at, radius2, surface_check, weight); };
-    const Vec3 total = filter == Filter::none ? sum(Even{}) : filter == Filter::cone ? sum(Cone{}) : sum(Gaussian{});
+    const auto sum = [&](const auto& weight) {
+        return weighted_sum(photons, found, at, radius2, surface_check, weight);
+    };
+    const Vec3 total = filter == Filter::none   ? sum(Even{})
+                       : filter == Filter::cone ? sum(Cone{})
+                                                : sum(Gaussian{});
     return total * (1 / (std::numbers::pi_v<float> * radius2));
 }
 

@@ -1,4 +1,5 @@
-// capture/radiance_estimate.h -- equation 2 of the paper: reflected radiance from the photons that a search has found.
+// capture/radiance_estimate.h -- equation 2 of the paper: reflected radiance from the photons that a search
+// has found.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -9,8 +10,9 @@
 
 namespace regather::capture {
 
-/// Weight of a photon by its distance over the radius of the disc (Jensen 2001, section 7.2.1): a cone, 1 - t / 1.1, or a
-/// Gaussian of beta = 1.953; divided by the weight's mean over the disc, so that an even irradiance stays what it is.
+/// Weight of a photon by its distance over the radius of the disc (Jensen 2001, section 7.2.1): a cone, 1 - t
+/// / 1.1, or a Gaussian of beta = 1.953; divided by the weight's mean over the disc, so that an even
+/// irradiance stays what it is.
 enum class Filter : std::uint8_t { none, cone, gaussian };
 inline constexpr std::array<const char*, 3> filter_names{"none", "cone", "gaussian"};
 
@@ -20,12 +22,13 @@ struct GatherPoint {
     Vec3 normal, to_viewer;
 };
 
-/// Of a full set, the farthest photon bounds the disc and is not counted: k - 1 photons lie in it at random, and the mean of
-/// (k - 1) / area is the density (Mack & Rosenblatt, "Multivariate k-nearest neighbor density estimates", 1979), while
-/// that of k / area is k / (k - 1) of it. Sum over the photons of f_r x power x weight, over the area of their disc [W / (m^2 sr)]. Photons that come from
-/// behind the surface are not used; with `surface_check`, nor are those whose own surface's normal is more than 60
-/// degrees away (the paper, section 6.2). Nothing found, or all at the point itself: 0.
-Vec3 reflected_radiance(const spatial::PhotonKd& photons, const spatial::NearestSet& found, const GatherPoint& at, Filter filter,
-                        bool surface_check);
+/// Of a full set, the farthest photon bounds the disc and is not counted: k - 1 photons lie in it at random,
+/// and the mean of (k - 1) / area is the density (Mack & Rosenblatt, "Multivariate k-nearest neighbor density
+/// estimates", 1979), while that of k / area is k / (k - 1) of it. Sum over the photons of f_r x power x
+/// weight, over the area of their disc [W / (m^2 sr)]. Photons that come from behind the surface are not
+/// used; with `surface_check`, nor are those whose own surface's normal is more than 60 degrees away (the
+/// paper, section 6.2). Nothing found, or all at the point itself: 0.
+Vec3 reflected_radiance(const spatial::PhotonKd& photons, const spatial::NearestSet& found,
+                        const GatherPoint& at, Filter filter, bool surface_check);
 
 }  // namespace regather::capture

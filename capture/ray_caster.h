@@ -1,5 +1,6 @@
-// capture/ray_caster.h -- rays against the triangles of a scene, by Embree 3, and where the next ray starts. Embree is held to
-// AVX2 kernels, so that a machine with wider vectors finds the same hits to the last bit. docs/stability.md has the error bounds.
+// capture/ray_caster.h -- rays against the triangles of a scene, by Embree 3, and where the next ray starts.
+// Embree is held to AVX2 kernels, so that a machine with wider vectors finds the same hits to the last bit.
+// docs/stability.md has the error bounds.
 #pragma once
 #include <bit>
 #include <cmath>
@@ -16,49 +17,56 @@ using scenes::Scene;
 using trace::Vec3;
 
 struct Hit {
-    float distance = 0;          ///< Along the unit direction [scene units].
+    float distance = 0;  ///< Along the unit direction [scene units].
     std::uint32_t triangle = 0;
-    /// From the barycentric coordinates: in the triangle's plane to rounding. Next to an edge it is moved inwards, by
-    /// RayCaster::inset() at most: a ray that leaves from there starts on the inner side of the wall behind the edge, too.
+    /// From the barycentric coordinates: in the triangle's plane to rounding. Next to an edge it is moved
+    /// inwards, by RayCaster::inset() at most: a ray that leaves from there starts on the inner side of the
+    /// wall behind the edge, too.
     Vec3 position;
-    Vec3 geometric_normal;       ///< Unit length, by the triangle's winding.
-    Vec3 shading_normal;         ///< Unit length, interpolated where the mesh has normals; same side as the geometric one.
+    Vec3 geometric_normal;  ///< Unit length, by the triangle's winding.
+    Vec3 shading_normal;    ///< Unit length, interpolated where the mesh has normals; same side as the
+                            ///< geometric one.
 };
 
 class RayCaster {
 public:
-    /// Triangles without any area are never hit. The scene outlives the caster. Throws std::runtime_error with Embree's message.
+    /// Triangles without any area are never hit. The scene outlives the caster. Throws std::runtime_error
+    /// with Embree's message.
     explicit RayCaster(const Scene& scene);
     ~RayCaster();
     RayCaster(const RayCaster&) = delete;
     RayCaster& operator=(const RayCaster&) = delete;
 
-    /// `direction` has unit length. A zero or non-finite direction, or a non-finite origin, hits nothing. Surfaces that the origin
-    /// lies on are not hit: nothing within an eighth of largest_offset() is. Any number of threads may call.
+    /// `direction` has unit length. A zero or non-finite direction, or a non-finite origin, hits nothing.
+    /// Surfaces that the origin lies on are not hit: nothing within an eighth of largest_offset() is. Any
+    /// number of threads may call.
     std::optional<Hit> closest(Vec3 origin, Vec3 direction) const;
     bool occluded(Vec3 origin, Vec3 direction, float extent) const;
 
-    /// `position` moved off the surface to the side of `normal`, farther than the rounding of any hit, so that a ray from there
-    /// does not meet the same surface (Waechter and Binder, "A Fast and Reliable Method for Avoiding Self-Intersection", Ray
-    /// Tracing Gems, 2019, chapter 6): a fixed step where coordinates are small, a fixed number of floats where they are large.
-    /// Their two constants for "small" are lengths in metres; here they are shares of the scene's extent, and so it holds at any
-    /// scale.
+    /// `position` moved off the surface to the side of `normal`, farther than the rounding of any hit, so
+    /// that a ray from there does not meet the same surface (Waechter and Binder, "A Fast and Reliable Method
+    /// for Avoiding Self-Intersection", Ray Tracing Gems, 2019, chapter 6): a fixed step where coordinates
+    /// are small, a fixed number of floats where they are large. Their two constants for "small" are lengths
+    /// in metres; here they are shares of the scene's extent, and so it holds at any scale.
     Vec3 offset(Vec3 position, Vec3 normal) const {
         return {moved(position.x, normal.x), moved(position.y, normal.y), moved(position.z, normal.z)};
     }
-    /// The farthest that offset() moves a point of the scene, and that closest() moves a hit inwards [scene units].
+    /// The farthest that offset() moves a point of the scene, and that closest() moves a hit inwards [scene
+    /// units].
     float largest_offset() const { return largest_offset_; }
     float inset() const { return inset_; }
 
 private:
-    // In floats (units in the last place) beyond `far_`, as a share of `far_` within. Half of the smallest step, 2^-19, is what the
-    // errors of the hit point and of Embree's distance add up to at most (docs/stability.md).
+    // In floats (units in the last place) beyond `far_`, as a share of `far_` within. Half of the smallest
+    // step, 2^-19, is what the errors of the hit point and of Embree's distance add up to at most
+    // (docs/stability.md).
     static constexpr float floats_ = 64, share_ = 0x1p-18f;
 
     float moved(float coordinate, float normal) const {
         if (std::fabs(coordinate) < far_) return coordinate + step_ * normal;
         const auto floats = static_cast<std::int32_t>(floats_ * normal);
-        return std::bit_cast<float>(std::bit_cast<std::int32_t>(coordinate) + (coordinate < 0 ? -floats : floats));
+        return std::bit_cast<float>(std::bit_cast<std::int32_t>(coordinate) +
+                                    (coordinate < 0 ? -floats : floats));
     }
 
     /// All that a hit needs of a triangle, on one or two cache lines.

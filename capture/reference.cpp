@@ -28,21 +28,27 @@ const trace::ColumnType& moments_type() {
     return type;
 }
 
-std::string hexadecimal(std::uint64_t number) { return fmt::format("{:016x}", number); }
+std::string hexadecimal(std::uint64_t number) {
+    return fmt::format("{:016x}", number);
+}
 
 /// The fields of reference.json, with one line for each that is not what it should be.
 class State {
 public:
     explicit State(fs::path path) : path_(std::move(path)) {
         std::ifstream file(path_);
-        if (!file) throw trace::DataError(fmt::format("{}: cannot be opened; is this a folder that regather reference wrote?", path_.string()));
+        if (!file)
+            throw trace::DataError(fmt::format(
+                "{}: cannot be opened; is this a folder that regather reference wrote?", path_.string()));
         const std::string text{std::istreambuf_iterator<char>(file), {}};
         root_ = json::parse(text, nullptr, false);
-        if (!root_.is_object()) throw trace::DataError(fmt::format("{}: found no JSON object", path_.string()));
+        if (!root_.is_object())
+            throw trace::DataError(fmt::format("{}: found no JSON object", path_.string()));
     }
     std::uint64_t number(const char* field, std::uint64_t least, std::uint64_t most) const {
         const json& value = at(field);
-        if (!value.is_number_unsigned() || value.get<std::uint64_t>() < least || value.get<std::uint64_t>() > most)
+        if (!value.is_number_unsigned() || value.get<std::uint64_t>() < least ||
+            value.get<std::uint64_t>() > most)
             fail(field, value, fmt::format("a whole number from {} to {}", least, most));
         return value.get<std::uint64_t>();
     }
@@ -58,14 +64,16 @@ public:
         return value.get<std::string>();
     }
     [[noreturn]] void fail(const char* field, const json& found, const std::string& expected) const {
-        throw trace::DataError(fmt::format("{}: {}: found {}, expected {}", path_.string(), field,
-                                           found.dump(-1, ' ', false, json::error_handler_t::replace).substr(0, 60), expected));
+        throw trace::DataError(
+            fmt::format("{}: {}: found {}, expected {}", path_.string(), field,
+                        found.dump(-1, ' ', false, json::error_handler_t::replace).substr(0, 60), expected));
     }
 
 private:
     const json& at(const char* field) const {
         const auto found = root_.find(field);
-        if (found == root_.end()) throw trace::DataError(fmt::format("{}: {}: not there", path_.string(), field));
+        if (found == root_.end())
+            throw trace::DataError(fmt::format("{}: {}: not there", path_.string(), field));
         return *found;
     }
     fs::path path_;
@@ -96,9 +104,11 @@ Image image_of(const Reference& reference, double (*value)(const Moments&, std::
 
 Reference::Reference(ReferenceKey what) : key(std::move(what)), pixels(std::size_t{key.width} * key.height) {}
 
-void Reference::add(const PathTracer& tracer, std::uint32_t count, const std::function<void(std::uint64_t)>& finished) {
+void Reference::add(const PathTracer& tracer, std::uint32_t count,
+                    const std::function<void(std::uint64_t)>& finished) {
     if (count > std::numeric_limits<std::uint32_t>::max() - samples)
-        throw trace::UsageError(fmt::format("samples: found {} and {} more, expected fewer than 2^32", samples, count));
+        throw trace::UsageError(
+            fmt::format("samples: found {} and {} more, expected fewer than 2^32", samples, count));
     const auto start = std::chrono::steady_clock::now();
     counts += tracer.add(pixels, samples, count, finished);
     samples += count;
@@ -110,7 +120,8 @@ Image Reference::mean() const {
 }
 
 Image Reference::variance() const {
-    return image_of(*this, [](const Moments& pixel, std::size_t c, std::uint64_t n) { return pixel.variance(c, n); });
+    return image_of(
+        *this, [](const Moments& pixel, std::size_t c, std::uint64_t n) { return pixel.variance(c, n); });
 }
 
 double Reference::mean_variance() const {
@@ -123,7 +134,8 @@ double Reference::mean_variance() const {
 double Reference::median_variance() const {
     std::vector<double> all;
     for (const Moments& pixel : pixels)
-        all.push_back((pixel.variance(0, samples) + pixel.variance(1, samples) + pixel.variance(2, samples)) / 3);
+        all.push_back((pixel.variance(0, samples) + pixel.variance(1, samples) + pixel.variance(2, samples)) /
+                      3);
     if (all.empty()) return 0;
     const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
     std::nth_element(all.begin(), middle, all.end());
@@ -137,31 +149,36 @@ double Reference::mean_radiance() const {
     return pixels.empty() ? 0 : sum / (3 * static_cast<double>(pixels.size()));
 }
 
-bool holds_reference(const fs::path& folder) { return fs::exists(folder / state_name); }
+bool holds_reference(const fs::path& folder) {
+    return fs::exists(folder / state_name);
+}
 
 Reference load_reference(const fs::path& folder) {
     constexpr std::uint64_t any = std::numeric_limits<std::uint64_t>::max();
     const State state(folder / state_name);
     if (const std::uint64_t version = state.number("reference_version", 0, any); version != schema_version)
-        state.fail("reference_version", version, fmt::format("{}; render the reference again", schema_version));
+        state.fail("reference_version", version,
+                   fmt::format("{}; render the reference again", schema_version));
     ReferenceKey key{state.text("scene"), state.text("scene_checksum"),
                      static_cast<std::uint32_t>(state.number("image_width", 1, most_pixels)),
-                     static_cast<std::uint32_t>(state.number("image_height", 1, most_pixels)), state.number("seed", 0, any)};
+                     static_cast<std::uint32_t>(state.number("image_height", 1, most_pixels)),
+                     state.number("seed", 0, any)};
     const std::string name = state.text("moments");
     if (!name.starts_with("moments-") || !name.ends_with(".npy") || name.find('/') != std::string::npos)
         state.fail("moments", name, "moments-<samples>.npy");
     const trace::MappedColumn column(folder / name, moments_type());
     const std::uint64_t pixels = std::uint64_t{key.width} * key.height;
     if (column.size() != pixels)
-        throw trace::DataError(fmt::format("{}: found {} rows, expected {} x {} pixels", (folder / name).string(),
-                                           column.size(), key.width, key.height));
+        throw trace::DataError(fmt::format("{}: found {} rows, expected {} x {} pixels",
+                                           (folder / name).string(), column.size(), key.width, key.height));
     const std::string checksum = hexadecimal(column.checksum());
     if (const std::string expected = state.text("moments_checksum"); checksum != expected)
-        throw trace::DataError(
-            fmt::format("{}: found checksum {}, expected {}: altered or damaged", (folder / name).string(), checksum, expected));
+        throw trace::DataError(fmt::format("{}: found checksum {}, expected {}: altered or damaged",
+                                           (folder / name).string(), checksum, expected));
 
     Reference reference(std::move(key));
-    reference.samples = static_cast<std::uint32_t>(state.number("samples", 1, std::numeric_limits<std::uint32_t>::max()));
+    reference.samples =
+        static_cast<std::uint32_t>(state.number("samples", 1, std::numeric_limits<std::uint32_t>::max()));
     reference.seconds = state.seconds("seconds");
     reference.counts.samples = state.number("paths", 0, any);
     reference.counts.rays = state.number("rays", 0, any);
@@ -178,21 +195,24 @@ Reference resume_reference(const fs::path& folder, const ReferenceKey& key) {
     Reference reference = load_reference(folder);
     const ReferenceKey& found = reference.key;
     const auto refuse = [&](const char* field, const std::string& there, const std::string& asked) {
-        throw trace::UsageError(fmt::format("{}: {}: found a reference with {}, asked for {}; choose another folder",
-                                            (folder / state_name).string(), field, there, asked));
+        throw trace::UsageError(
+            fmt::format("{}: {}: found a reference with {}, asked for {}; choose another folder",
+                        (folder / state_name).string(), field, there, asked));
     };
     if (found.scene_checksum != key.scene_checksum)
         refuse("scene", fmt::format("{} ({})", found.scene, found.scene_checksum),
                fmt::format("{} ({})", key.scene, key.scene_checksum));
     if (found.width != key.width || found.height != key.height)
-        refuse("image size", fmt::format("{} x {}", found.width, found.height), fmt::format("{} x {}", key.width, key.height));
+        refuse("image size", fmt::format("{} x {}", found.width, found.height),
+               fmt::format("{} x {}", key.width, key.height));
     if (found.seed != key.seed) refuse("seed", fmt::format("{}", found.seed), fmt::format("{}", key.seed));
     return reference;
 }
 
 void save(const Reference& reference, const fs::path& folder) {
     fs::create_directories(folder);
-    const std::string name = fmt::format("moments-{}.npy", reference.samples), partial = fmt::format("partial-{}", state_name);
+    const std::string name = fmt::format("moments-{}.npy", reference.samples),
+                      partial = fmt::format("partial-{}", state_name);
     trace::ColumnWriter writer(folder / (name + ".partial"), moments_type());
     writer.append(std::span<const Moments>(reference.pixels));
     const trace::ColumnDigest digest = writer.finish();
@@ -216,7 +236,8 @@ void save(const Reference& reference, const fs::path& folder) {
     {
         std::ofstream file(folder / partial);
         file << state.dump(2) << "\n";
-        if (!file.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", (folder / partial).string()));
+        if (!file.flush())
+            throw std::runtime_error(fmt::format("{}: cannot be written", (folder / partial).string()));
     }
     fs::rename(folder / partial, folder / state_name);
     remove_moments_but(folder, name);

@@ -1,6 +1,6 @@
-// capture/sampler.h -- counter-based random numbers: Philox 4x32-10 (Salmon et al., "Parallel Random Numbers: As Easy as
-// 1, 2, 3", SC 2011) from Random123. A number depends on (seed, stream, index, sample, dimension) alone, not on who asks
-// for it when.
+// capture/sampler.h -- counter-based random numbers: Philox 4x32-10 (Salmon et al., "Parallel Random Numbers:
+// As Easy as 1, 2, 3", SC 2011) from Random123. A number depends on (seed, stream, index, sample, dimension)
+// alone, not on who asks for it when.
 #pragma once
 #include <Random123/philox.h>
 

@@ -1,5 +1,5 @@
-// capture/surface.h -- the side of a surface that a ray meets, and where specular surfaces send it on. The photon pass and the eye
-// paths share it: light and importance take the same turns.
+// capture/surface.h -- the side of a surface that a ray meets, and where specular surfaces send it on. The
+// photon pass and the eye paths share it: light and importance take the same turns.
 #pragma once
 #include "capture/bsdf.h"
 #include "capture/ray_caster.h"
@@ -21,7 +21,8 @@ inline Surface surface_at(const Scene& scene, const Hit& hit, Vec3 incoming) {
     const bool front = dot(incoming, hit.geometric_normal) > 0;
     const Vec3 side = front ? hit.geometric_normal : -hit.geometric_normal;
     const Vec3 smooth = front ? hit.shading_normal : -hit.shading_normal;
-    return {&scene.materials[scene.triangle_material[hit.triangle]], front, side, dot(incoming, smooth) > 0 ? smooth : side};
+    return {&scene.materials[scene.triangle_material[hit.triangle]], front, side,
+            dot(incoming, smooth) > 0 ? smooth : side};
 }
 
 /// Mirror direction, always on the ray's side.

@@ -33,7 +33,8 @@ std::string ray_column(RayKind kind, const char* field) {
 
 }  // namespace
 
-/// Labels of the leaves that the queries' hits lie in (the paper, section 6.3.2, "Other interesting reorderings").
+/// Labels of the leaves that the queries' hits lie in (the paper, section 6.3.2, "Other interesting
+/// reorderings").
 class TraceColumns::LeafLabels {
 public:
     LeafLabels(const Scene& scene, const Columns& columns) {
@@ -44,7 +45,8 @@ public:
         return labels(queries.size(), [&](std::size_t q) { return kd_->leaf_of(queries.position[q]); });
     }
     std::vector<std::uint32_t> bvh(const Queries& queries) const {
-        return labels(queries.size(), [&](std::size_t q) { return bvh_->leaf_of_triangle(queries.triangle[q]); });
+        return labels(queries.size(),
+                      [&](std::size_t q) { return bvh_->leaf_of_triangle(queries.triangle[q]); });
     }
 
 private:
@@ -58,8 +60,12 @@ private:
     std::optional<spatial::TriangleBvh> bvh_;
 };
 
-TraceColumns::TraceColumns(const Scene& scene, const Columns& columns, const scenes::Needs& needs, trace::TraceWriter& writer)
-    : columns_(columns), needs_(needs), writer_(writer), labels_(std::make_unique<LeafLabels>(scene, columns)) {}
+TraceColumns::TraceColumns(const Scene& scene, const Columns& columns, const scenes::Needs& needs,
+                           trace::TraceWriter& writer)
+    : columns_(columns),
+      needs_(needs),
+      writer_(writer),
+      labels_(std::make_unique<LeafLabels>(scene, columns)) {}
 
 TraceColumns::~TraceColumns() = default;
 
@@ -68,7 +74,9 @@ bool TraceColumns::has_rays(RayKind kind) const {
     return columns_.rays && (!need || need->needed);
 }
 
-void TraceColumns::write_photons(std::span<const trace::Photon> heap) { append(writer_, "photon", heap); }
+void TraceColumns::write_photons(std::span<const trace::Photon> heap) {
+    append(writer_, "photon", heap);
+}
 
 void TraceColumns::write_queries(const Queries& queries, const Gathered& gathered) {
     append(writer_, "query_position", queries.position);
@@ -105,7 +113,8 @@ std::vector<trace::LeftOut> TraceColumns::left_out() const {
         const auto kind = static_cast<RayKind>(k);
         if (has_rays(kind)) continue;
         for (const char* field : ray_fields)
-            parts.push_back({ray_column(kind, field), columns_.rays ? need_of(needs_, kind)->reason : "no replay asked for rays"});
+            parts.push_back({ray_column(kind, field),
+                             columns_.rays ? need_of(needs_, kind)->reason : "no replay asked for rays"});
     }
     return parts;
 }

@@ -1,4 +1,5 @@
-// capture/trace_columns.h -- which columns of a trace a capture writes, which it leaves out and why, and the writing.
+// capture/trace_columns.h -- which columns of a trace a capture writes, which it leaves out and why, and the
+// writing.
 #pragma once
 #include <memory>
 #include <span>
@@ -21,7 +22,8 @@ struct Columns {
 class TraceColumns {
 public:
     /// Scene, needs and writer outlive the object. Rays belong to the global map's trace.
-    TraceColumns(const Scene& scene, const Columns& columns, const scenes::Needs& needs, trace::TraceWriter& writer);
+    TraceColumns(const Scene& scene, const Columns& columns, const scenes::Needs& needs,
+                 trace::TraceWriter& writer);
     ~TraceColumns();
     TraceColumns(const TraceColumns&) = delete;
     TraceColumns& operator=(const TraceColumns&) = delete;

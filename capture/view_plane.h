@@ -27,7 +27,8 @@ public:
 
 private:
     float width_, height_;
-    trace::Vec3 forward_, right_, up_;  // right_ and up_ reach from the image centre to its edges at unit distance
+    trace::Vec3 forward_, right_,
+        up_;  // right_ and up_ reach from the image centre to its edges at unit distance
 };
 
 }  // namespace regather::capture

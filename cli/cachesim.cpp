@@ -20,9 +20,9 @@
 #include "cli/commands.h"
 #include "cli/machine.h"
 #include "cli/progress.h"
-#include "cli/size.h"
 #include "trace/error.h"
 #include "trace/file.h"
+#include "trace/size.h"
 
 namespace regather::cli {
 
@@ -118,7 +118,8 @@ std::string all_lru(const Options& options) {
     std::string_view ways = options.ways.empty() ? "16" : std::string_view(options.ways);
     const std::uint32_t most_ways = parse_ways(ways);
     if (most_ways == cachesim::fully_associative || most_ways > 32)
-        throw trace::UsageError(fmt::format("--ways: found '{}' beside --all-lru, expected the most ways, 1 to 32", ways));
+        throw trace::UsageError(
+            fmt::format("--ways: found '{}' beside --all-lru, expected the most ways, 1 to 32", ways));
 
     cachesim::AddressTrace trace(options.files);
     cachesim::FamilySweep sweep(line_sizes, most_ways, !options.no_3c);
@@ -127,7 +128,8 @@ std::string all_lru(const Options& options) {
         Progress progress;
         for (auto records = trace.next(); !records.empty(); records = trace.next()) {
             sweep.access(records);
-            for (const cachesim::ByteAccess& access : records) writes = writes || access.kind == cachesim::Access::write;
+            for (const cachesim::ByteAccess& access : records)
+                writes = writes || access.kind == cachesim::Access::write;
             const auto [done, total, unit] = trace.position();
             if (total != 0) progress.update("cachesim: all lru", unit, done, total);
         }
@@ -176,7 +178,7 @@ void run(const Options& options) {
         throw trace::UsageError(fmt::format("--csv {}: found a file, expected none (--force overwrites it)",
                                             options.csv.string()));
 
-    const std::string rows = !machines.empty()   ? run_machines(machines, options.files)
+    const std::string rows = !machines.empty() ? run_machines(machines, options.files)
                              : options.all_lru ? all_lru(options)
                                                : table(simulate(options, configs));
     if (options.csv.empty())
@@ -222,7 +224,8 @@ void add_cachesim(CLI::App& app) {
         ->capture_default_str();
     command
         ->add_flag("--all-lru", options->all_lru,
-                   "In place of --size: every LRU cache of the lines, 1 to 65536 sets of 1 to 16 (or --ways, up to 32) "
+                   "In place of --size: every LRU cache of the lines, 1 to 65536 sets of 1 to 16 (or --ways, "
+                   "up to 32) "
                    "ways, and fully associative ones, all from one pass")
         ->excludes(sizes);
     command->add_option("--seed", options->seed, "Of the policy random")->capture_default_str();

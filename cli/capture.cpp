@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "cli/capture_job.h"
-#include "cli/capture_options.h"
 #include "cli/commands.h"
+#include "experiment/capture_job.h"
+#include "experiment/capture_options.h"
 
 namespace regather::cli {
 
@@ -21,12 +21,14 @@ void add_capture(CLI::App& app) {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("capture", "render a scene; write its image and its trace");
     command->add_option("scene", options->scene, "an embedded scene's name or a scene file")->required();
-    command->add_option("-o,--output", options->folder, "folder for image.exr, image.png and trace/")->required();
+    command->add_option("-o,--output", options->folder, "folder for image.exr, image.png and trace/")
+        ->required();
     options->capture.add_to(*command);
     command->add_flag("--force", options->force, "overwrite a finished capture");
-    command->footer("Examples:\n"
-                    "  regather capture room -o out/room --width 128 --height 128 --photons 100000\n"
-                    "  regather capture my_scene.json -o out/mine --k 50 --radius 0.3");
+    command->footer(
+        "Examples:\n"
+        "  regather capture room -o out/room --width 128 --height 128 --photons 100000\n"
+        "  regather capture my_scene.json -o out/mine --k 50 --radius 0.3");
     command->callback([options] {
         const CaptureJob job{options->scene, options->capture, {}, options->folder, options->force};
         const CaptureResult result = run(job);

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "charts/accuracy.h"
+#include "charts/chart.h"
 #include "cli/commands.h"
-#include "results/accuracy.h"
-#include "results/chart.h"
 #include "results/csv.h"
 #include "trace/error.h"
 #include "trace/file.h"

@@ -1,5 +1,6 @@
-// cli/commands.h -- the subcommands of `regather`, one file each. Each function adds its subcommand to `app`; the
-// callback does the work and throws trace::UsageError (exit 2), trace::DataError (exit 3) or std::exception (exit 1).
+// cli/commands.h -- the subcommands of `regather`, one file each. Each function adds its subcommand to `app`;
+// the callback does the work and throws trace::UsageError (exit 2), trace::DataError (exit 3) or
+// std::exception (exit 1).
 #pragma once
 
 namespace CLI {

@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "cli/attribution.h"
 #include "cli/commands.h"
+#include "experiment/attribution.h"
 
 namespace regather::cli {
 

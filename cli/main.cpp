@@ -1,4 +1,5 @@
-// cli/main.cpp -- the binary `regather`: subcommands, exit codes. 0 done; 1 the run failed; 2 usage; 3 bad data.
+// cli/main.cpp -- the binary `regather`: subcommands, exit codes. 0 done; 1 the run failed; 2 usage; 3 bad
+// data.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -50,11 +51,13 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
     const std::vector<CLI::App*> parsed = app.get_subcommands();
     const CLI::App& command = parsed.empty() ? app : *parsed.front();
     const std::vector<std::string> left_over = command.remaining();
-    const bool misspelt = !left_over.empty() && (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError) ||
-                                                 error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError));
-    return fmt::format("{} (see regather {}--help)",
-                       misspelt ? unexpected(command, parsed.empty(), left_over.front()) : std::string(error.what()),
-                       parsed.empty() ? "" : command.get_name() + " ");
+    const bool misspelt =
+        !left_over.empty() && (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError) ||
+                               error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError));
+    return fmt::format(
+        "{} (see regather {}--help)",
+        misspelt ? unexpected(command, parsed.empty(), left_over.front()) : std::string(error.what()),
+        parsed.empty() ? "" : command.get_name() + " ");
 }
 
 /// What was printed has reached its file, or the run has failed.
@@ -67,10 +70,11 @@ int finish() {
 }  // namespace
 
 int main(int argc, char** argv) {
-
     cli::set_command_line(argc, argv);
-    CLI::App app("regather: captures what a photon mapper asks of memory, puts the questions into other orders, and "
-                 "measures what each order costs and saves.", "regather");
+    CLI::App app(
+        "regather: captures what a photon mapper asks of memory, puts the questions into other orders, and "
+        "measures what each order costs and saves.",
+        "regather");
     app.require_subcommand(1);
     app.set_version_flag("--version", cli::version_text());
     cli::add_scenes(app);

@@ -28,7 +28,8 @@ Progress::~Progress() {
     if (shown_) std::fputs("\r\x1b[K", stderr);
 }
 
-void Progress::update(std::string_view stage, std::string_view unit, std::uint64_t done, std::uint64_t total) {
+void Progress::update(std::string_view stage, std::string_view unit, std::uint64_t done,
+                      std::uint64_t total) {
     if (!terminal_) return;
     const std::lock_guard lock(mutex_);
     const Clock::time_point now = Clock::now();
@@ -42,8 +43,9 @@ void Progress::update(std::string_view stage, std::string_view unit, std::uint64
     drawn_ = now;
     shown_ = true;
     const double seconds = std::chrono::duration<double>(now - start_).count();
-    std::string line = fmt::format("{}: {:.1f} %", stage, total == 0 ? 100.0 : 100.0 * static_cast<double>(done) /
-                                                                                  static_cast<double>(total));
+    std::string line =
+        fmt::format("{}: {:.1f} %", stage,
+                    total == 0 ? 100.0 : 100.0 * static_cast<double>(done) / static_cast<double>(total));
     if (seconds > 0.2 && done > first_) {
         const double rate = static_cast<double>(done - first_) / seconds;
         line += fmt::format(", {}{}/s, {} left", rate_text(rate), unit,

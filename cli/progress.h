@@ -1,4 +1,5 @@
-// cli/progress.h -- one line on stderr with what is done, the rate and the time left; nothing when stderr is no terminal.
+// cli/progress.h -- one line on stderr with what is done, the rate and the time left; nothing when stderr is
+// no terminal.
 #pragma once
 #include <atomic>
 #include <chrono>

@@ -8,10 +8,10 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "cli/contest.h"
-#include "cli/measurement.h"
 #include "cli/progress.h"
 #include "cli/version.h"
+#include "experiment/contest.h"
+#include "experiment/measurement.h"
 #include "results/provenance.h"
 #include "spatial/photon_kd.h"
 #include "trace/error.h"

@@ -6,25 +6,26 @@
 #include <filesystem>
 #include <memory>
 
+#include "charts/benefit.h"
 #include "cli/commands.h"
 #include "cli/machine.h"
-#include "cli/measurement.h"
 #include "cli/progress.h"
-#include "cli/size.h"
 #include "cli/version.h"
-#include "results/benefit.h"
+#include "experiment/measurement.h"
 #include "results/csv.h"
 #include "results/provenance.h"
 #include "results/table.h"
 #include "trace/error.h"
 #include "trace/file.h"
+#include "trace/size.h"
 
 namespace regather::cli {
 namespace {
 
 /// The rows of cli/machine.h for each ordering, with its name before them.
 std::string through_machines(const Measurement& measurement, const trace::TraceReader& trace,
-                             std::span<const reorder::ParsedOrdering> orderings, std::span<const cachesim::Machine> machines) {
+                             std::span<const reorder::ParsedOrdering> orderings,
+                             std::span<const cachesim::Machine> machines) {
     std::string text = "scene,ordering,parameters," + machine_header();
     Progress progress;
     for (const reorder::ParsedOrdering& parsed : orderings) {
@@ -61,25 +62,38 @@ void add_replay(CLI::App& app) {
     CLI::App* command = app.add_subcommand("replay", "run a trace's walks in other orders through caches");
     command->add_option("trace", options->trace, "the folder of a finished trace")->required();
     std::string known;
-    for (const reorder::Entry& entry : reorder::catalogue()) known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
+    for (const reorder::Entry& entry : reorder::catalogue())
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
     command
-        ->add_option("--order,--reorderer", options->orders,
-                     fmt::format("orderings as NAME:parameter=value,...; or the path of a shared library. Known: {}", known))
+        ->add_option(
+            "--order,--reorderer", options->orders,
+            fmt::format("orderings as NAME:parameter=value,...; or the path of a shared library. Known: {}",
+                        known))
         ->required();
-    command->add_option("--cache", options->caches, "caches as SIZE:LINE:WAYS, each a value or a list; WAYS may be full")->capture_default_str();
-    command->add_option("--machine", options->machines,
-                        "in place of --cache: memory systems, by name (see regather machines) or file, with commas");
+    command
+        ->add_option("--cache", options->caches,
+                     "caches as SIZE:LINE:WAYS, each a value or a list; WAYS may be full")
+        ->capture_default_str();
+    command->add_option(
+        "--machine", options->machines,
+        "in place of --cache: memory systems, by name (see regather machines) or file, with commas");
     command->add_flag("--classes", options->classes, "compulsory, capacity and conflict misses, too");
     command->add_flag("--buffers", options->buffers,
-                      "what the orderings' buffers add to the traffic when they do not fit --onchip, too; one pass a cache");
-    command->add_option("--sample", options->one_of, "simulate one set of so many (2, 4, ... 1024) and estimate; 1: all")->capture_default_str();
+                      "what the orderings' buffers add to the traffic when they do not fit --onchip, too; "
+                      "one pass a cache");
+    command
+        ->add_option("--sample", options->one_of,
+                     "simulate one set of so many (2, 4, ... 1024) and estimate; 1: all")
+        ->capture_default_str();
     command->add_option("--seed", options->seed, "which sets are sampled")->capture_default_str();
     command->add_option("--onchip", options->onchip, "bytes that the chip can buffer")->capture_default_str();
     command->add_option("--csv", options->csv, "write the rows here, and X.json beside X.csv");
     command->add_flag("--force", options->force, "overwrite the CSV");
-    command->footer("Examples:\n"
-                    "  regather replay out/room/trace --order naive hilbert hilbert:tile=16 --cache 128K:128:8 --csv rows.csv\n"
-                    "  regather replay out/room/trace --reorderer ./libmine.so --cache 16K:64:full 1M:64:16");
+    command->footer(
+        "Examples:\n"
+        "  regather replay out/room/trace --order naive hilbert hilbert:tile=16 --cache 128K:128:8 --csv "
+        "rows.csv\n"
+        "  regather replay out/room/trace --reorderer ./libmine.so --cache 16K:64:full 1M:64:16");
     command->callback([options] {
         if (!options->csv.empty()) results::refuse_to_overwrite(options->csv, options->force);
         auto [orderings, reads] = parse_orderings(options->orders);
@@ -88,7 +102,8 @@ void add_replay(CLI::App& app) {
             for (const cachesim::CacheConfig& cache : parse_caches(text)) caches.push_back(cache);
         std::vector<std::uint32_t> lines;
         for (const cachesim::CacheConfig& cache : caches)
-            if (std::find(lines.begin(), lines.end(), cache.line_bytes) == lines.end()) lines.push_back(cache.line_bytes);
+            if (std::find(lines.begin(), lines.end(), cache.line_bytes) == lines.end())
+                lines.push_back(cache.line_bytes);
         Method method{options->classes, options->buffers, {}};
         if (options->one_of != 1) {
             if (options->classes || options->buffers)
@@ -108,7 +123,8 @@ void add_replay(CLI::App& app) {
                 return;
             }
             trace::write_file(options->csv, text);
-            results::write_provenance(options->csv, {command_line(), version(), git_revision(), trace.checksum()},
+            results::write_provenance(options->csv,
+                                      {command_line(), version(), git_revision(), trace.checksum()},
                                       trace.info().parameters);
             fmt::print("rows: {}\n", options->csv.string());
             return;
@@ -134,8 +150,8 @@ void add_replay(CLI::App& app) {
             return;
         }
         results::write_csv(options->csv, rows);
-        results::write_provenance(options->csv,
-                                  {command_line(), version(), git_revision(), trace.checksum()}, trace.info().parameters);
+        results::write_provenance(options->csv, {command_line(), version(), git_revision(), trace.checksum()},
+                                  trace.info().parameters);
         fmt::print("{}rows: {}\n", results::table(rows), options->csv.string());
     });
 }

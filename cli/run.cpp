@@ -1,4 +1,5 @@
-// regather run -- a whole experiment: capture, every ordering, every cache, CSV and charts. Finished parts are kept.
+// regather run -- a whole experiment: capture, every ordering, every cache, CSV and charts. Finished parts
+// are kept.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <tbb/task_arena.h>
@@ -12,15 +13,15 @@
 #include <memory>
 #include <set>
 
-#include "cli/capture_job.h"
+#include "charts/benefit.h"
+#include "charts/chart.h"
 #include "cli/commands.h"
-#include "cli/experiment.h"
-#include "cli/measurement.h"
 #include "cli/progress.h"
-#include "cli/revisits.h"
 #include "cli/version.h"
-#include "results/benefit.h"
-#include "results/chart.h"
+#include "experiment/capture_job.h"
+#include "experiment/experiment.h"
+#include "experiment/measurement.h"
+#include "experiment/revisits.h"
 #include "results/csv.h"
 #include "results/provenance.h"
 #include "results/table.h"
@@ -39,8 +40,9 @@ std::string method_text(const Method& method) {
 /// The rows of one trial, as a file that bears a digest of all that they depend on: the code, too.
 fs::path part_path(const fs::path& folder, const Trial& trial, const trace::TraceReader& trace,
                    const Experiment& experiment) {
-    std::string key = fmt::format("{} {} {} {} {} {}", git_revision(), trace.checksum(), trial.ordering.spec.text,
-                                  trial.library_digest, experiment.onchip_bytes, method_text(experiment.method));
+    std::string key =
+        fmt::format("{} {} {} {} {} {}", git_revision(), trace.checksum(), trial.ordering.spec.text,
+                    trial.library_digest, experiment.onchip_bytes, method_text(experiment.method));
     for (const cachesim::CacheConfig& cache : trial.caches) key += ' ' + cache_text(cache);
     return folder / "parts" / fmt::format("{:016x}.csv", XXH3_64bits(key.data(), key.size()));
 }
@@ -58,7 +60,8 @@ void find_compulsory(Measurement& measurement, const fs::path& folder, const Exp
     for (const Trial& trial : experiment.trials)
         for (const cachesim::CacheConfig& cache : trial.caches) sizes.insert(cache.line_bytes);
     const std::vector<std::uint32_t> lines(sizes.begin(), sizes.end());
-    const fs::path path = folder / "parts" / fmt::format("compulsory-{}-{}.csv", trace.checksum(), join(lines));
+    const fs::path path =
+        folder / "parts" / fmt::format("compulsory-{}-{}.csv", trace.checksum(), join(lines));
     if (fs::exists(path)) {
         for (const results::Row& row : results::read_csv(path))
             measurement.compulsory_bytes[static_cast<std::uint32_t>(row.line_bytes.value_or(0))] =
@@ -82,18 +85,21 @@ void find_compulsory(Measurement& measurement, const fs::path& folder, const Exp
 void prepare(Measurement& measurement, const fs::path& folder, const Experiment& experiment,
              const trace::TraceReader& trace) {
     std::vector<cachesim::CacheConfig> caches;
-    std::string key = fmt::format("{} {} {}", git_revision(), trace.checksum(), method_text(experiment.method));
+    std::string key =
+        fmt::format("{} {} {}", git_revision(), trace.checksum(), method_text(experiment.method));
     for (const Trial& trial : experiment.trials)
         for (const cachesim::CacheConfig& cache : trial.caches) {
             caches.push_back(cache);
             key += ' ' + cache_text(cache);
         }
-    const fs::path path = folder / "parts" / fmt::format("revisits-{:016x}.json", XXH3_64bits(key.data(), key.size()));
+    const fs::path path =
+        folder / "parts" / fmt::format("revisits-{:016x}.json", XXH3_64bits(key.data(), key.size()));
     if (!experiment.method.sampling && fs::exists(path)) {
         const replay::Revisits revisits = read_revisits(path);
         if (!replay::serve(revisits, {caches, experiment.method.classes}))
-            throw trace::DataError(fmt::format("{}: found counts of other caches, expected those of this experiment; delete it",
-                                               path.string()));
+            throw trace::DataError(
+                fmt::format("{}: found counts of other caches, expected those of this experiment; delete it",
+                            path.string()));
         measurement.prepare(revisits, experiment.method);
         return;
     }
@@ -104,9 +110,10 @@ void prepare(Measurement& measurement, const fs::path& folder, const Experiment&
     if (!experiment.method.sampling) write_revisits(path, measurement.revisits());
 }
 
-/// Replays what is missing: as many trials at once as there are threads; their orders are made before, one by one, so that
-/// order_seconds is measured on a machine that does nothing else.
-void replay_missing(const Measurement& measurement, const Experiment& experiment, std::span<const fs::path> parts) {
+/// Replays what is missing: as many trials at once as there are threads; their orders are made before, one by
+/// one, so that order_seconds is measured on a machine that does nothing else.
+void replay_missing(const Measurement& measurement, const Experiment& experiment,
+                    std::span<const fs::path> parts) {
     std::vector<std::size_t> missing;
     std::set<fs::path> seen;  // a trial that is asked for twice is replayed once
     for (std::size_t t = 0; t < parts.size(); ++t)
@@ -114,7 +121,8 @@ void replay_missing(const Measurement& measurement, const Experiment& experiment
     const std::uint64_t total = missing.size() * measurement.queries();
     std::atomic<std::uint64_t> done{0};
     Progress progress;
-    constexpr std::uint64_t most_bytes = std::uint64_t{4} << 30;  // of permutations held: 4 bytes a query each
+    constexpr std::uint64_t most_bytes = std::uint64_t{4}
+                                         << 30;  // of permutations held: 4 bytes a query each
     const std::uint64_t fitting = most_bytes / (4 * std::max<std::uint64_t>(measurement.queries(), 1));
     const auto threads = static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency());
     const std::size_t at_once = std::clamp<std::uint64_t>(fitting, 1, threads);
@@ -132,11 +140,13 @@ void replay_missing(const Measurement& measurement, const Experiment& experiment
                 const std::size_t t = missing[first + i];
                 const Trial& trial = experiment.trials[t];
                 std::uint64_t before = 0;
-                const auto rows = measurement.rows(trial.ordering, ordered[i], trial.caches, [&](std::uint64_t now) {
-                    const std::uint64_t all = done += now - before;
-                    before = now;
-                    progress.update(fmt::format("replaying {} orderings", missing.size()), "queries", all, total);
-                });
+                const auto rows =
+                    measurement.rows(trial.ordering, ordered[i], trial.caches, [&](std::uint64_t now) {
+                        const std::uint64_t all = done += now - before;
+                        before = now;
+                        progress.update(fmt::format("replaying {} orderings", missing.size()), "queries", all,
+                                        total);
+                    });
                 results::write_csv(parts[t], rows);
             });
         replays.wait();
@@ -144,7 +154,8 @@ void replay_missing(const Measurement& measurement, const Experiment& experiment
 }
 
 /// All rows of one trace: what is missing is replayed.
-std::vector<results::Row> measured(trace::TraceReader& trace, const fs::path& folder, const Experiment& experiment) {
+std::vector<results::Row> measured(trace::TraceReader& trace, const fs::path& folder,
+                                   const Experiment& experiment) {
     Measurement measurement(trace, reads(experiment), experiment.onchip_bytes);
     fs::create_directories(folder / "parts");
     find_compulsory(measurement, folder, experiment, trace);
@@ -158,8 +169,9 @@ std::vector<results::Row> measured(trace::TraceReader& trace, const fs::path& fo
     for (std::size_t t = 0; t < parts.size(); ++t) {
         const std::vector<results::Row> some = results::read_csv(parts[t]);
         if (some.size() != experiment.trials[t].caches.size())
-            throw trace::DataError(fmt::format("{}: found {} rows, expected {}, one a cache; delete it", parts[t].string(),
-                                               some.size(), experiment.trials[t].caches.size()));
+            throw trace::DataError(fmt::format("{}: found {} rows, expected {}, one a cache; delete it",
+                                               parts[t].string(), some.size(),
+                                               experiment.trials[t].caches.size()));
         rows.insert(rows.end(), some.begin(), some.end());
     }
     return rows;
@@ -173,16 +185,19 @@ void add_run(CLI::App& app) {
         bool force = false;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("run", "capture, reorder, replay and chart what an experiment file asks for");
-    command->add_option("experiment", options->experiment, "a JSON file; see docs/experiments.md")->required();
+    CLI::App* command =
+        app.add_subcommand("run", "capture, reorder, replay and chart what an experiment file asks for");
+    command->add_option("experiment", options->experiment, "a JSON file; see docs/experiments.md")
+        ->required();
     command->add_option("-o,--output", options->folder, "folder for everything that is made")->required();
     command->add_flag("--force", options->force, "capture again although the folder holds another capture");
-    command->footer("Finished parts in the folder are kept: the same command goes on after an interruption.\n"
-                    "Example:\n  regather run scenes/experiments/figure4.json -o out/figure4");
+    command->footer(
+        "Finished parts in the folder are kept: the same command goes on after an interruption.\n"
+        "Example:\n  regather run scenes/experiments/figure4.json -o out/figure4");
     command->callback([options] {
         const Experiment experiment = load_experiment(options->experiment);
-        const CaptureResult captured =
-            run(CaptureJob{experiment.scene, experiment.capture, reads(experiment), options->folder, options->force});
+        const CaptureResult captured = run(CaptureJob{experiment.scene, experiment.capture, reads(experiment),
+                                                      options->folder, options->force});
         fmt::print("{}", captured.report);
         std::fflush(stdout);
 
@@ -199,11 +214,13 @@ void add_run(CLI::App& app) {
         results::fill_net_benefit(rows);
         const fs::path csv = options->folder / "rows.csv";
         results::write_csv(csv, rows);
-        results::write_provenance(csv, {command_line(), version(), git_revision(), fmt::format("{}", fmt::join(checksums, " "))},
-                                  parameters);
+        results::write_provenance(
+            csv, {command_line(), version(), git_revision(), fmt::format("{}", fmt::join(checksums, " "))},
+            parameters);
         const auto charts = results::write_charts(options->folder / "charts", rows, {}, {});
         fmt::print("{}", results::table(rows));
-        for (const fs::path& folder : captured.folders) fmt::print("image:  {}\n", (folder / "image.png").string());
+        for (const fs::path& folder : captured.folders)
+            fmt::print("image:  {}\n", (folder / "image.png").string());
         fmt::print("rows:   {}\n", csv.string());
         for (const results::Drawn& drawn : charts) {
             if (drawn.files.empty()) {

@@ -1,4 +1,5 @@
-// regather sampling -- how far off are sampled replays, and how much faster? Error against run time, measured on a trace.
+// regather sampling -- how far off are sampled replays, and how much faster? Error against run time, measured
+// on a trace.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -6,11 +7,11 @@
 #include <filesystem>
 #include <memory>
 
+#include "charts/accuracy.h"
 #include "cli/commands.h"
-#include "cli/measurement.h"
 #include "cli/progress.h"
 #include "cli/version.h"
-#include "results/accuracy.h"
+#include "experiment/measurement.h"
 #include "results/csv.h"
 #include "results/provenance.h"
 
@@ -34,7 +35,8 @@ void run(const Options& options) {
     for (const std::uint32_t rate : options.rates) replay::SetSample::check(caches, {rate, 1});
 
     trace::TraceReader trace(options.trace);
-    Measurement exact(trace, reads, reorder::default_onchip_bytes), sampled(trace, reads, reorder::default_onchip_bytes);
+    Measurement exact(trace, reads, reorder::default_onchip_bytes),
+        sampled(trace, reads, reorder::default_onchip_bytes);
     Progress progress;
     const auto shared = [&](std::uint64_t done) {
         progress.update("counting what no order changes", "queries", done, exact.queries());
@@ -54,16 +56,27 @@ void run(const Options& options) {
         for (const std::uint32_t rate : options.rates)
             for (std::uint64_t seed = 1; seed <= options.seeds; ++seed) {
                 sampled.sample({rate, seed});
-                const auto found = sampled.rows(parsed, ordered, caches, replaying(fmt::format(", 1/{}", rate)));
+                const auto found =
+                    sampled.rows(parsed, ordered, caches, replaying(fmt::format(", 1/{}", rate)));
                 for (std::size_t c = 0; c < caches.size(); ++c) {
                     const results::Row &row = found[c], &exactly = truth[c];
-                    rows.push_back({.scene = row.scene, .ordering = row.ordering, .parameters = row.parameters,
-                                    .cache_bytes = row.cache_bytes, .line_bytes = row.line_bytes, .ways = row.ways,
-                                    .set_sampling = row.set_sampling, .seed = seed, .misses = row.misses,
-                                    .misses_stderr = row.misses_stderr, .misses_low = row.misses_low,
-                                    .misses_high = row.misses_high, .exact_misses = exactly.misses,
-                                    .covered = *row.misses_low <= *exactly.misses && *exactly.misses <= *row.misses_high,
-                                    .seconds = row.replay_seconds, .exact_seconds = exactly.replay_seconds});
+                    rows.push_back(
+                        {.scene = row.scene,
+                         .ordering = row.ordering,
+                         .parameters = row.parameters,
+                         .cache_bytes = row.cache_bytes,
+                         .line_bytes = row.line_bytes,
+                         .ways = row.ways,
+                         .set_sampling = row.set_sampling,
+                         .seed = seed,
+                         .misses = row.misses,
+                         .misses_stderr = row.misses_stderr,
+                         .misses_low = row.misses_low,
+                         .misses_high = row.misses_high,
+                         .exact_misses = exactly.misses,
+                         .covered = *row.misses_low <= *exactly.misses && *exactly.misses <= *row.misses_high,
+                         .seconds = row.replay_seconds,
+                         .exact_seconds = exactly.replay_seconds});
                 }
             }
     }
@@ -81,16 +94,23 @@ void run(const Options& options) {
 
 void add_sampling(CLI::App& app) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("sampling", "measure the error and the speed of set sampling against exact replays");
+    CLI::App* command = app.add_subcommand(
+        "sampling", "measure the error and the speed of set sampling against exact replays");
     command->add_option("trace", options->trace, "the folder of a finished trace")->required();
     command->add_option("--order", options->orders, "orderings, as for replay")->capture_default_str();
     command->add_option("--cache", options->caches, "caches, as for replay")->capture_default_str();
-    command->add_option("--rates", options->rates, "one set of so many: 2, 4, ... 1024")->delimiter(',')->capture_default_str();
-    command->add_option("--seeds", options->seeds, "samples taken at each rate")->check(CLI::Range(1, 1000))->capture_default_str();
+    command->add_option("--rates", options->rates, "one set of so many: 2, 4, ... 1024")
+        ->delimiter(',')
+        ->capture_default_str();
+    command->add_option("--seeds", options->seeds, "samples taken at each rate")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
     command->add_option("--csv", options->csv, "write the rows here, and X.json beside X.csv");
     command->add_flag("--force", options->force, "overwrite the CSV");
-    command->footer("Example:\n  regather sampling out/room/trace --order naive hilbert --cache 16K,128K:128:1 --rates 2,4,8,16,32 "
-                    "--csv sampling.csv\n  regather chart sampling.csv -o charts");
+    command->footer(
+        "Example:\n  regather sampling out/room/trace --order naive hilbert --cache 16K,128K:128:1 --rates "
+        "2,4,8,16,32 "
+        "--csv sampling.csv\n  regather chart sampling.csv -o charts");
     command->callback([options] { run(*options); });
 }
 

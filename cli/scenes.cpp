@@ -1,4 +1,5 @@
-// `regather scenes [NAME|FILE]`: what there is to light, as tables on stdout, or as a contact sheet of small renderings.
+// `regather scenes [NAME|FILE]`: what there is to light, as tables on stdout, or as a contact sheet of small
+// renderings.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -70,7 +71,9 @@ void print_table(const std::vector<Row>& rows) {
     }
 }
 
-std::string in_percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
+std::string in_percent(double share) {
+    return fmt::format("{:.1f} %", 100 * share);
+}
 
 std::string frames_of(const Scene& scene) {
     return scene.camera_path.empty() ? "-" : fmt::format("{}", scene.frames);
@@ -83,18 +86,20 @@ double seen_by_camera(const Scene& scene) {
 
 double seen_over_path(const Scene& scene) {
     std::vector<scenes::Camera> cameras;
-    for (std::uint32_t frame = 0; frame < scene.frames; ++frame) cameras.push_back(scenes::camera_at(scene, frame));
+    for (std::uint32_t frame = 0; frame < scene.frames; ++frame)
+        cameras.push_back(scenes::camera_at(scene, frame));
     const capture::RayCaster caster(scene);
     return capture::share_seen(scene, caster, cameras);
 }
 
 void print_all() {
-    std::vector<Row> rows{{"name", "triangles", "materials", "lights", "power [W] (R G B)", "bounds [m]", "seen", "frames"}};
+    std::vector<Row> rows{
+        {"name", "triangles", "materials", "lights", "power [W] (R G B)", "bounds [m]", "seen", "frames"}};
     for (const scenes::EmbeddedScene& entry : scenes::catalogue()) {
         const Scene scene = scenes::load_scene(entry.name);
         rows.push_back({scene.name, fmt::format("{}", scene.triangles.size()), materials_of(scene),
-                        fmt::format("{}", scene.lights.size()), in_words(total_power(scene)), bounds_of(scene),
-                        in_percent(seen_by_camera(scene)), frames_of(scene)});
+                        fmt::format("{}", scene.lights.size()), in_words(total_power(scene)),
+                        bounds_of(scene), in_percent(seen_by_camera(scene)), frames_of(scene)});
     }
     print_table(rows);
 }
@@ -103,7 +108,8 @@ void write_thumbnails(const std::filesystem::path& file, std::vector<std::string
     if (file.extension() != ".png")
         throw trace::UsageError(fmt::format("--thumbnails: found {}, expected a .png file", file.string()));
     if (std::filesystem::exists(file) && !force)
-        throw trace::UsageError(fmt::format("{}: found a file that is there, expected --force to overwrite it", file.string()));
+        throw trace::UsageError(
+            fmt::format("{}: found a file that is there, expected --force to overwrite it", file.string()));
     if (names.empty())
         for (const scenes::EmbeddedScene& entry : scenes::catalogue()) names.emplace_back(entry.name);
     std::vector<Scene> all;
@@ -152,8 +158,9 @@ void print_details(const std::string& name_or_path) {
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const scenes::AreaLight& light = scene.lights[i];
         if (light.is_mesh()) {
-            line(fmt::format("  {}", i), fmt::format("{:.4g} m^2, {} triangles, radiance {} W/(m^2 sr)", light.area(),
-                                                     light.triangle_count, in_words(light.radiance)));
+            line(fmt::format("  {}", i),
+                 fmt::format("{:.4g} m^2, {} triangles, radiance {} W/(m^2 sr)", light.area(),
+                             light.triangle_count, in_words(light.radiance)));
             continue;
         }
         line(fmt::format("  {}", i),
@@ -165,8 +172,8 @@ void print_details(const std::string& name_or_path) {
 }  // namespace
 
 void add_scenes(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("scenes", "Lists the embedded scenes, shows one scene in detail, or draws a contact sheet");
+    CLI::App* command = app.add_subcommand(
+        "scenes", "Lists the embedded scenes, shows one scene in detail, or draws a contact sheet");
     command->footer(
         "Examples:\n"
         "  regather scenes                 the embedded scenes\n"
@@ -179,16 +186,20 @@ void add_scenes(CLI::App& app) {
         bool force = false;
     };
     auto options = std::make_shared<Options>();
-    command->add_option("SCENE", options->names, "an embedded scene's name, or a JSON file; several with --thumbnails");
-    command->add_option("--thumbnails", options->thumbnails,
-                        "writes small renderings of the scenes (default: the embedded ones) with their names to this PNG");
+    command->add_option("SCENE", options->names,
+                        "an embedded scene's name, or a JSON file; several with --thumbnails");
+    command->add_option(
+        "--thumbnails", options->thumbnails,
+        "writes small renderings of the scenes (default: the embedded ones) with their names to this PNG");
     command->add_flag("--force", options->force, "overwrites the PNG");
     command->callback([options] {
-        if (!options->thumbnails.empty()) return write_thumbnails(options->thumbnails, options->names, options->force);
+        if (!options->thumbnails.empty())
+            return write_thumbnails(options->thumbnails, options->names, options->force);
         if (options->names.empty()) return print_all();
         if (options->names.size() > 1)
-            throw trace::UsageError(fmt::format("SCENE: found '{}' after '{}', expected nothing more without --thumbnails",
-                                                options->names[1], options->names[0]));
+            throw trace::UsageError(
+                fmt::format("SCENE: found '{}' after '{}', expected nothing more without --thumbnails",
+                            options->names[1], options->names[0]));
         print_details(options->names[0]);
     });
 }

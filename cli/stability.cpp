@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "charts/chart.h"
+#include "charts/stability.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "cli/version.h"
-#include "results/chart.h"
 #include "results/csv.h"
 #include "results/provenance.h"
-#include "results/stability.h"
 #include "study/stability.h"
 
 namespace regather::cli {

@@ -36,8 +36,8 @@ struct OptionalColumn {
         if (!fs::exists(path)) return;
         file.push_back(trace::MappedColumn(path, trace::column_type<T>()));
         if (file.front().size() != rows)
-            throw trace::DataError(fmt::format("{}: found {} rows, expected {} as in query_position.npy", path.string(),
-                                               file.front().size(), rows));
+            throw trace::DataError(fmt::format("{}: found {} rows, expected {} as in query_position.npy",
+                                               path.string(), file.front().size(), rows));
     }
     bool exists() const { return !file.empty(); }
     std::span<const T> rows() const { return file.front().template rows<T>(); }
@@ -50,8 +50,10 @@ void copy(trace::TraceWriter& writer, const char* name, const OptionalColumn<T>&
 }
 
 /// Without a column each query is a pixel of its own.
-std::uint32_t greatest_pixel(const fs::path& columns, const OptionalColumn<std::uint32_t>& pixel, std::uint64_t queries) {
-    constexpr std::uint32_t most = std::numeric_limits<std::uint32_t>::max() - 1;  // so that an image width is one more
+std::uint32_t greatest_pixel(const fs::path& columns, const OptionalColumn<std::uint32_t>& pixel,
+                             std::uint64_t queries) {
+    constexpr std::uint32_t most =
+        std::numeric_limits<std::uint32_t>::max() - 1;  // so that an image width is one more
     if (!pixel.exists()) return queries == 0 ? 0 : static_cast<std::uint32_t>(queries - 1);
     std::uint32_t last = 0;
     for (std::size_t i = 0; i < pixel.rows().size(); ++i) {
@@ -65,8 +67,10 @@ std::uint32_t greatest_pixel(const fs::path& columns, const OptionalColumn<std::
 
 void make_trace(const Options& options) {
     if (!std::isfinite(options.radius))
-        throw trace::UsageError(fmt::format("--radius: found {}, expected a finite number; 0: unlimited", options.radius));
-    const trace::MappedColumn photon_positions(options.columns / "photon_position.npy", trace::column_type<Vec3>());
+        throw trace::UsageError(
+            fmt::format("--radius: found {}, expected a finite number; 0: unlimited", options.radius));
+    const trace::MappedColumn photon_positions(options.columns / "photon_position.npy",
+                                               trace::column_type<Vec3>());
     const trace::MappedColumn positions(options.columns / "query_position.npy", trace::column_type<Vec3>());
     const std::uint64_t queries = positions.size();
     const OptionalColumn<std::uint32_t> pixel(options.columns, "query_pixel", queries);
@@ -84,7 +88,8 @@ void make_trace(const Options& options) {
         if (!trace::is_finite(photons[i].position))
             throw trace::DataError(fmt::format("{}: row {}: found {} {} {}, expected finite numbers",
                                                (options.columns / "photon_position.npy").string(), i,
-                                               photons[i].position.x, photons[i].position.y, photons[i].position.z));
+                                               photons[i].position.x, photons[i].position.y,
+                                               photons[i].position.z));
     }
     const std::uint32_t last_pixel = greatest_pixel(options.columns, pixel, queries);
     const std::vector<trace::Photon> heap = spatial::left_balanced(photons);
@@ -108,7 +113,8 @@ void make_trace(const Options& options) {
     info.image_width = options.width > 0 ? options.width : last_pixel + 1;
     info.image_height = last_pixel / info.image_width + 1;
 
-    const float radius = options.radius > 0 ? static_cast<float>(options.radius) : std::numeric_limits<float>::infinity();
+    const float radius =
+        options.radius > 0 ? static_cast<float>(options.radius) : std::numeric_limits<float>::infinity();
     const spatial::PhotonKd tree(heap);
     constexpr std::uint64_t batch = 1 << 20;
     Progress progress;
@@ -135,22 +141,26 @@ void make_trace(const Options& options) {
     note("query_leaf_kd", leaf_kd.exists());
     note("query_leaf_bvh", leaf_bvh.exists());
     writer.finish(info);
-    fmt::print("{} photons, {} queries, {} nodes visited\ntrace: {}\n", info.photons, info.queries, info.visited_nodes,
-               options.folder.string());
+    fmt::print("{} photons, {} queries, {} nodes visited\ntrace: {}\n", info.photons, info.queries,
+               info.visited_nodes, options.folder.string());
 }
 
 }  // namespace
 
 void add_walk(CLI::App& app) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("walk", "make a trace of your own photons and queries (.npy columns)");
+    CLI::App* command =
+        app.add_subcommand("walk", "make a trace of your own photons and queries (.npy columns)");
     command
-        ->add_option("columns", options->columns,
-                     "folder with photon_position.npy and query_position.npy (float32, n x 3) and, if you have them, "
-                     "query_pixel.npy (uint32), query_direction.npy, query_weight.npy (float32, n x 3)")
+        ->add_option(
+            "columns", options->columns,
+            "folder with photon_position.npy and query_position.npy (float32, n x 3) and, if you have them, "
+            "query_pixel.npy (uint32), query_direction.npy, query_weight.npy (float32, n x 3)")
         ->required();
     command->add_option("-o,--output", options->folder, "the trace's folder")->required();
-    command->add_option("--k", options->k, "photons of a search")->check(CLI::Range(1u, (1u << 31) - 1))->capture_default_str();
+    command->add_option("--k", options->k, "photons of a search")
+        ->check(CLI::Range(1u, (1u << 31) - 1))
+        ->capture_default_str();
     command->add_option("--radius", options->radius, "maximum radius [units of the positions]; 0: unlimited")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();

@@ -51,7 +51,8 @@ Cost DirectionBinned::assign_keys(const Workload& work, std::uint64_t onchip_byt
                                   std::span<std::uint64_t> keys) const {
     const Tiling tiling(work, config_.tile);
     const std::uint64_t passes = config_.passes;
-    tbb::parallel_for(std::size_t{0}, keys.size(), [&](std::size_t i) { keys[i] = pass_of(work, tiling, i); });
+    tbb::parallel_for(std::size_t{0}, keys.size(),
+                      [&](std::size_t i) { keys[i] = pass_of(work, tiling, i); });
 
     Cost cost;
     cost.keys = keys.size() * passes;

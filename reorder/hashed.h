@@ -32,7 +32,8 @@ public:
     Cost assign_keys(const Workload& work, std::uint64_t onchip_bytes,
                      std::span<const std::uint32_t> incoming, std::span<std::uint64_t> keys) const;
     /// Likewise; record_bytes is 0 when the buckets fit.
-    BoundedBuckets buckets(const Workload& work, std::uint64_t onchip_bytes, std::vector<std::uint32_t> incoming) const;
+    BoundedBuckets buckets(const Workload& work, std::uint64_t onchip_bytes,
+                           std::vector<std::uint32_t> incoming) const;
     std::uint64_t buffer_bytes() const;
 
 private:

@@ -32,7 +32,7 @@ Cost LeafSorted::assign_keys(const Workload& work, std::uint64_t onchip_bytes,
 }
 
 BufferUse LeafSorted::buffer_use(const Workload& work, std::uint64_t onchip_bytes,
-                                  std::span<const std::uint32_t> permutation) const {
+                                 std::span<const std::uint32_t> permutation) const {
     return deferred_buffer_use(work, Tiling(work, config_.tile), onchip_bytes, permutation);
 }
 

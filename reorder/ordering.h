@@ -1,6 +1,6 @@
 // reorder/ordering.h -- decides the order in which captured queries are replayed, and says what that costs.
-// An ordering only assigns sort keys and order() does the sorting: every result is therefore a permutation, ties
-// keep capture order, and the same input gives the same order on every machine.
+// An ordering only assigns sort keys and order() does the sorting: every result is therefore a permutation,
+// ties keep capture order, and the same input gives the same order on every machine.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -19,10 +19,11 @@ namespace regather::reorder {
 using trace::Bounds3;
 using trace::Vec3;
 
-/// Bytes of one buffered query: location (12), RGB weight (12), destination pixel (4); the paper, section 6.3.2.
+/// Bytes of one buffered query: location (12), RGB weight (12), destination pixel (4); the paper,
+/// section 6.3.2.
 inline constexpr std::uint64_t query_record_bytes = 28;
-/// Bytes kept per pixel so that later passes need not cast its eye ray again: intersection (12), surface normal (12),
-/// ray direction (12), BRDF (12: two RGB triples as RGBE, exponent); the paper, section 6.3.1.
+/// Bytes kept per pixel so that later passes need not cast its eye ray again: intersection (12), surface
+/// normal (12), ray direction (12), BRDF (12: two RGB triples as RGBE, exponent); the paper, section 6.3.1.
 inline constexpr std::uint64_t pixel_state_bytes = 48;
 
 /// Which columns an ordering reads besides position and pixel.
@@ -33,25 +34,27 @@ struct Reads {
 /// All that an ordering may look at: the queries in capture order (pixels in row order, samples in a pixel
 /// together). Columns that were not captured are empty.
 struct Workload {
-    std::span<const Vec3> position;             ///< [scene units]; may hold NaN or infinity.
-    std::span<const Vec3> direction;            ///< Of the gather ray that ended here, unit length.
-    std::span<const std::uint32_t> pixel;       ///< y * image_width + x
-    std::span<const std::uint32_t> leaf_kd;     ///< Leaf label: kd-tree over the triangles.
-    std::span<const std::uint32_t> leaf_bvh;    ///< Leaf label: BVH over the triangles.
-    Bounds3 bounds;                             ///< Of all finite positions.
+    std::span<const Vec3> position;                   ///< [scene units]; may hold NaN or infinity.
+    std::span<const Vec3> direction;                  ///< Of the gather ray that ended here, unit length.
+    std::span<const std::uint32_t> pixel;             ///< y * image_width + x
+    std::span<const std::uint32_t> leaf_kd;           ///< Leaf label: kd-tree over the triangles.
+    std::span<const std::uint32_t> leaf_bvh;          ///< Leaf label: BVH over the triangles.
+    Bounds3 bounds;                                   ///< Of all finite positions.
     std::uint32_t image_width = 1, image_height = 1;  ///< [pixels]
 };
 
 /// What producing an ordering costs a machine that does it as the paper describes. Counts, no ratios.
 struct Cost {
-    std::uint64_t keys = 0;            ///< Keys computed, or membership tests against a pass's direction interval.
-    std::uint64_t key_ops = 0;         ///< Integer and floating-point operations spent on them.
-    std::uint64_t sort_passes = 0;     ///< Digit passes of a radix sort with 8-bit digits over the key.
-    std::uint64_t moved_records = 0;   ///< Buffered records written to another place (into a bucket, by a digit pass).
+    std::uint64_t keys = 0;     ///< Keys computed, or membership tests against a pass's direction interval.
+    std::uint64_t key_ops = 0;  ///< Integer and floating-point operations spent on them.
+    std::uint64_t sort_passes = 0;  ///< Digit passes of a radix sort with 8-bit digits over the key.
+    std::uint64_t moved_records =
+        0;  ///< Buffered records written to another place (into a bucket, by a digit pass).
     std::uint64_t buffered_bytes = 0;  ///< Peak bytes of queries or pixel state held back.
-    std::uint64_t reorder_bytes = 0;   ///< Bytes written to and read from memory outside the chip because of it.
-    std::uint64_t recast_rays = 0;     ///< Eye rays cast again.
-    std::uint64_t stalls = 0;          ///< Times the generation of queries had to wait for a full bucket.
+    std::uint64_t reorder_bytes =
+        0;                          ///< Bytes written to and read from memory outside the chip because of it.
+    std::uint64_t recast_rays = 0;  ///< Eye rays cast again.
+    std::uint64_t stalls = 0;       ///< Times the generation of queries had to wait for a full bucket.
 };
 
 class Ordering {
@@ -60,9 +63,10 @@ public:
     virtual Reads reads() const { return {}; }
     /// keys[i] belongs to query i; smaller keys run first. A rank is a key, so any order can be said.
     /// `onchip_bytes`: what the chip can buffer; a larger buffer makes reorder_bytes.
-    virtual Cost assign_keys(const Workload& work, std::uint64_t onchip_bytes, std::span<std::uint64_t> keys) const = 0;
-    /// What makes the reorder_bytes; empty when nothing does. `permutation` is that of order() with the same workload and
-    /// onchip_bytes. By default not known.
+    virtual Cost assign_keys(const Workload& work, std::uint64_t onchip_bytes,
+                             std::span<std::uint64_t> keys) const = 0;
+    /// What makes the reorder_bytes; empty when nothing does. `permutation` is that of order() with the same
+    /// workload and onchip_bytes. By default not known.
     virtual BufferUse buffer_use(const Workload& work, std::uint64_t onchip_bytes,
                                  std::span<const std::uint32_t> permutation) const;
 };
@@ -76,6 +80,7 @@ struct Ordered {
 inline constexpr std::uint64_t default_onchip_bytes = 1 << 20;
 
 /// At most 2^32 - 1 queries (trace::UsageError otherwise, and when a column the ordering reads is missing).
-Ordered order(const Ordering& ordering, const Workload& work, std::uint64_t onchip_bytes = default_onchip_bytes);
+Ordered order(const Ordering& ordering, const Workload& work,
+              std::uint64_t onchip_bytes = default_onchip_bytes);
 
 }  // namespace regather::reorder

@@ -39,7 +39,8 @@ Parameters::Parameters(std::string_view ordering, std::span<const Parameter> kno
         const auto found = std::find(names.begin(), names.end(), name);
         if (found == names.end())
             throw trace::UsageError(fmt::format("{}: unknown parameter \"{}\"; nearest: {}; known: {}",
-                                                ordering, name, trace::nearest_words(name, names).front(), trace::listed(names)));
+                                                ordering, name, trace::nearest_words(name, names).front(),
+                                                trace::listed(names)));
         const auto index = static_cast<std::size_t>(found - names.begin());
         if (set[index])
             throw trace::UsageError(fmt::format("{}: parameter {} is given twice", ordering, name));
@@ -102,9 +103,10 @@ std::uint32_t Parameters::count_or(std::string_view name, std::uint32_t fallback
 std::size_t Parameters::choice(std::string_view name, std::initializer_list<std::string_view> words) const {
     const auto found = std::find(words.begin(), words.end(), std::string_view(value(name)));
     if (found == words.end())
-        throw trace::UsageError(fmt::format("{}: {} is \"{}\"; nearest: {}; known: {}", ordering_, name,
-                                            value(name), trace::nearest_words(value(name), {words.begin(), words.size()}).front(),
-                                            trace::listed({words.begin(), words.size()})));
+        throw trace::UsageError(
+            fmt::format("{}: {} is \"{}\"; nearest: {}; known: {}", ordering_, name, value(name),
+                        trace::nearest_words(value(name), {words.begin(), words.size()}).front(),
+                        trace::listed({words.begin(), words.size()})));
     return static_cast<std::size_t>(found - words.begin());
 }
 

@@ -8,12 +8,14 @@
 
 namespace regather::replay {
 
-std::vector<std::uint64_t> pixel_traffic(const WalkStore& walks, const HeapLayout& layout, std::span<const std::uint32_t> permutation,
+std::vector<std::uint64_t> pixel_traffic(const WalkStore& walks, const HeapLayout& layout,
+                                         std::span<const std::uint32_t> permutation,
                                          std::span<const std::uint32_t> query_pixel, std::uint64_t pixels,
                                          const cachesim::CacheConfig& config, const QueriesDone& progress) {
     for (const std::uint32_t pixel : query_pixel)
         if (pixel >= pixels)
-            throw trace::DataError(fmt::format("query_pixel: found {}, expected a pixel below {}", pixel, pixels));
+            throw trace::DataError(
+                fmt::format("query_pixel: found {}, expected a pixel below {}", pixel, pixels));
     cachesim::LruCache cache(config);
     WalkLines lines(layout, config.line_bytes, walks.photons());
     std::vector<std::uint64_t> bytes(pixels);

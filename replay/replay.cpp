@@ -24,8 +24,9 @@ using cachesim::FamilyCounts;
 constexpr std::uint32_t max_family_ways = 32;
 constexpr std::uint64_t max_family_sets = std::uint64_t{1} << 24;
 
-/// Simulated for itself: what no family serves, and one or two set-associative caches of a line size when nobody asks for
-/// classes, which take less time than the pass for all. (Below 16 sets one cache is slow; see set_engine.cpp.)
+/// Simulated for itself: what no family serves, and one or two set-associative caches of a line size when
+/// nobody asks for classes, which take less time than the pass for all. (Below 16 sets one cache is slow; see
+/// set_engine.cpp.)
 bool alone(const CacheConfig& cache, const ReplayConfig& config) {
     if (!family_serves(cache)) return true;
     if (config.classes) return false;
@@ -44,9 +45,11 @@ std::map<std::uint32_t, FamilyConfig> families(const ReplayConfig& config) {
     for (const CacheConfig& cache : config.caches) {
         cachesim::check(cache);
         if (alone(cache, config)) continue;
-        FamilyConfig& family =
-            by_line.try_emplace(cache.line_bytes, FamilyConfig{.levels = {}, .distances = config.classes, .conflicts = config.classes})
-                .first->second;
+        FamilyConfig& family = by_line
+                                   .try_emplace(cache.line_bytes, FamilyConfig{.levels = {},
+                                                                               .distances = config.classes,
+                                                                               .conflicts = config.classes})
+                                   .first->second;
         if (cache.ways == cachesim::fully_associative) {
             family.distances = true;
             continue;
@@ -64,7 +67,8 @@ std::map<std::uint32_t, FamilyConfig> families(const ReplayConfig& config) {
 /// The caches of one line size on their way through a replay.
 class LineSize {
 public:
-    LineSize(const HeapLayout& layout, std::uint32_t line_bytes, std::uint32_t photons) : lines_(layout, line_bytes, photons) {}
+    LineSize(const HeapLayout& layout, std::uint32_t line_bytes, std::uint32_t photons)
+        : lines_(layout, line_bytes, photons) {}
 
     std::uint32_t line_bytes() const { return lines_.line_bytes(); }
     void add_family(const FamilyConfig& config) { family_.emplace(config); }
@@ -81,7 +85,12 @@ public:
 
     CacheTraffic traffic(const CacheConfig& config, const ReplayConfig& all, const Revisits& revisits) {
         const bool classes = all.classes;
-        CacheTraffic found{.config = config, .accesses = accesses_, .misses = 0, .traffic_bytes = 0, .classes = {}, .error = {}};
+        CacheTraffic found{.config = config,
+                           .accesses = accesses_,
+                           .misses = 0,
+                           .traffic_bytes = 0,
+                           .classes = {},
+                           .error = {}};
         if (!alone(config, all)) {
             const FamilyCounts &first = family_->counts(), &again = revisits.at(config.line_bytes);
             const std::uint64_t sets = config.sets();
@@ -95,9 +104,11 @@ public:
                 found.classes = {first.compulsory, found.misses - first.compulsory - conflict, conflict};
             }
         } else {
-            const auto cache = std::find_if(alone_.begin(), alone_.end(), [&](const cachesim::LruCache& candidate) {
-                return candidate.config().size_bytes == config.size_bytes && candidate.config().ways == config.ways;
-            });
+            const auto cache =
+                std::find_if(alone_.begin(), alone_.end(), [&](const cachesim::LruCache& candidate) {
+                    return candidate.config().size_bytes == config.size_bytes &&
+                           candidate.config().ways == config.ways;
+                });
             found.misses = cache->total().misses;
         }
         found.traffic_bytes = found.misses * config.line_bytes;
@@ -114,14 +125,17 @@ private:
 }  // namespace
 
 void refuse_walk(std::uint64_t query, spatial::WalkFault fault) {
-    constexpr std::array<std::string_view, 4> found{"", "a walk that ends early", "bytes after the walk's end",
+    constexpr std::array<std::string_view, 4> found{"", "a walk that ends early",
+                                                    "bytes after the walk's end",
                                                     "a walk that enters a node that does not exist"};
-    throw trace::DataError(fmt::format("walk.npy: query {}: found {}, expected the walk of a search in this tree", query,
-                                       found[static_cast<std::size_t>(fault)]));
+    throw trace::DataError(
+        fmt::format("walk.npy: query {}: found {}, expected the walk of a search in this tree", query,
+                    found[static_cast<std::size_t>(fault)]));
 }
 
 bool family_serves(const CacheConfig& config) {
-    return config.ways == cachesim::fully_associative || (config.ways <= max_family_ways && config.sets() <= max_family_sets);
+    return config.ways == cachesim::fully_associative ||
+           (config.ways <= max_family_ways && config.sets() <= max_family_sets);
 }
 
 Revisits count_revisits(const WalkStore& walks, const HeapLayout& layout, const ReplayConfig& config,
@@ -141,7 +155,8 @@ Revisits count_revisits(const WalkStore& walks, const HeapLayout& layout, const 
     });
     if (by_line.empty()) return {};
     run_all_walks(walks, parts, progress, [](Part& part, std::span<const std::uint32_t> slots) {
-        for (std::size_t f = 0; f < part.families.size(); ++f) part.families[f].revisit(part.lines[f].touches(slots));
+        for (std::size_t f = 0; f < part.families.size(); ++f)
+            part.families[f].revisit(part.lines[f].touches(slots));
     });
     Revisits sum;
     std::size_t f = 0;
@@ -159,10 +174,11 @@ bool serve(const Revisits& revisits, const ReplayConfig& config) {
         const auto counts = revisits.find(line_bytes);
         if (counts == revisits.end()) return false;
         for (const cachesim::FamilyLevel& level : family.levels)
-            if (std::none_of(counts->second.levels.begin(), counts->second.levels.end(), [&](const FamilyCounts::Level& held) {
-                    return held.level.sets == level.sets && held.misses.size() >= level.ways &&
-                           held.conflicts.size() >= (config.classes ? level.ways : 0);
-                }))
+            if (std::none_of(counts->second.levels.begin(), counts->second.levels.end(),
+                             [&](const FamilyCounts::Level& held) {
+                                 return held.level.sets == level.sets && held.misses.size() >= level.ways &&
+                                        held.conflicts.size() >= (config.classes ? level.ways : 0);
+                             }))
                 return false;
     }
     return true;
@@ -206,7 +222,8 @@ std::vector<bool> touched_nodes(const WalkStore& walks) {
     return touched;
 }
 
-std::uint64_t compulsory_bytes(const std::vector<bool>& touched, const HeapLayout& layout, std::uint32_t line_bytes) {
+std::uint64_t compulsory_bytes(const std::vector<bool>& touched, const HeapLayout& layout,
+                               std::uint32_t line_bytes) {
     cachesim::DistinctLines distinct;
     std::vector<cachesim::Line> lines;
     for (std::uint32_t slot = 1; slot < touched.size(); ++slot) {

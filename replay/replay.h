@@ -1,8 +1,9 @@
-// replay/replay.h -- runs recorded walks in an order: walks -> nodes -> bytes -> lines -> caches. Nothing is searched.
+// replay/replay.h -- runs recorded walks in an order: walks -> nodes -> bytes -> lines -> caches. Nothing is
+// searched.
 //
-// All LRU caches of one line size come from one pass (cachesim/lru_family.h), and of a walk's touches only the first of each
-// line are simulated for an order: how deep the others lie does not depend on what ran before the walk, so they are counted
-// once for all orders (count_revisits()).
+// All LRU caches of one line size come from one pass (cachesim/lru_family.h), and of a walk's touches only
+// the first of each line are simulated for an order: how deep the others lie does not depend on what ran
+// before the walk, so they are counted once for all orders (count_revisits()).
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -20,8 +21,8 @@ namespace regather::replay {
 
 using QueriesDone = std::function<void(std::uint64_t)>;
 
-/// Misses by class: Hill, "Aspects of Cache Memory and Instruction Buffer Performance", 1987. First touches of a line; others
-/// that a fully associative LRU cache of the same size misses, too; the rest.
+/// Misses by class: Hill, "Aspects of Cache Memory and Instruction Buffer Performance", 1987. First touches
+/// of a line; others that a fully associative LRU cache of the same size misses, too; the rest.
 struct MissClasses {
     std::uint64_t compulsory = 0, capacity = 0, conflict = 0;
     friend bool operator==(const MissClasses&, const MissClasses&) = default;
@@ -37,8 +38,8 @@ struct SampleError {
 /// What went through one cache.
 struct CacheTraffic {
     cachesim::CacheConfig config;
-    std::uint64_t accesses = 0;  ///< Line accesses; a node on two lines makes two.
-    std::uint64_t misses = 0;    ///< An estimate when there is a SampleError.
+    std::uint64_t accesses = 0;       ///< Line accesses; a node on two lines makes two.
+    std::uint64_t misses = 0;         ///< An estimate when there is a SampleError.
     std::uint64_t traffic_bytes = 0;  ///< misses x line_bytes: a replay only reads.
     std::optional<MissClasses> classes;
     std::optional<SampleError> error;
@@ -46,7 +47,7 @@ struct CacheTraffic {
 
 struct Replayed {
     std::uint64_t visited_nodes = 0;
-    std::uint64_t raw_bytes = 0;  ///< visited_nodes x bytes used of a node.
+    std::uint64_t raw_bytes = 0;       ///< visited_nodes x bytes used of a node.
     std::vector<CacheTraffic> caches;  ///< In the order asked for.
     double seconds = 0;
 };
@@ -63,17 +64,17 @@ using Revisits = std::map<std::uint32_t, cachesim::FamilyCounts>;
 /// Up to 32 ways, or all.
 bool family_serves(const cachesim::CacheConfig& config);
 
-/// For any order of the trace's queries and any of these caches. On all cores. Throws trace::DataError with the query's
-/// number when a walk does not fit its tree.
+/// For any order of the trace's queries and any of these caches. On all cores. Throws trace::DataError with
+/// the query's number when a walk does not fit its tree.
 Revisits count_revisits(const WalkStore& walks, const HeapLayout& layout, const ReplayConfig& config,
                         const QueriesDone& progress = {});
 
 /// Whether `revisits` are of these caches or more.
 bool serve(const Revisits& revisits, const ReplayConfig& config);
 
-/// Runs all queries in the order of `permutation` through each cache, as if it were alone. `revisits` are of the same walks,
-/// layout, and of these caches or more. `progress` is told the queries done now and then. One thread; several replays of one
-/// store can run at once. Throws as count_revisits().
+/// Runs all queries in the order of `permutation` through each cache, as if it were alone. `revisits` are of
+/// the same walks, layout, and of these caches or more. `progress` is told the queries done now and then. One
+/// thread; several replays of one store can run at once. Throws as count_revisits().
 Replayed replay(const WalkStore& walks, const HeapLayout& layout, std::span<const std::uint32_t> permutation,
                 const ReplayConfig& config, const Revisits& revisits, const QueriesDone& progress = {});
 
@@ -81,6 +82,7 @@ Replayed replay(const WalkStore& walks, const HeapLayout& layout, std::span<cons
 std::vector<bool> touched_nodes(const WalkStore& walks);
 
 /// Compulsory traffic: the different lines on which the touched nodes lie, times the line size.
-std::uint64_t compulsory_bytes(const std::vector<bool>& touched, const HeapLayout& layout, std::uint32_t line_bytes);
+std::uint64_t compulsory_bytes(const std::vector<bool>& touched, const HeapLayout& layout,
+                               std::uint32_t line_bytes);
 
 }  // namespace regather::replay

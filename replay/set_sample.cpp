@@ -34,7 +34,8 @@ std::vector<std::uint64_t> chosen(std::uint64_t count, std::uint64_t below, std:
     std::vector<std::uint64_t> numbers(below);
     std::iota(numbers.begin(), numbers.end(), 0u);
     const auto draw = [&](std::uint64_t number) { return std::pair(mixed(mixed(seed) + number), number); };
-    std::sort(numbers.begin(), numbers.end(), [&](std::uint64_t a, std::uint64_t b) { return draw(a) < draw(b); });
+    std::sort(numbers.begin(), numbers.end(),
+              [&](std::uint64_t a, std::uint64_t b) { return draw(a) < draw(b); });
     numbers.resize(count);
     std::sort(numbers.begin(), numbers.end());
     return numbers;
@@ -44,9 +45,10 @@ std::vector<std::uint64_t> chosen(std::uint64_t count, std::uint64_t below, std:
 
 double student_quantile_95(std::uint64_t degrees_of_freedom) {
     // Two-sided 5 % points, as in any table of the t distribution.
-    static constexpr std::array<double, 31> table{0,     12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228,
-                                                  2.201, 2.179,  2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086, 2.080,
-                                                  2.074, 2.069,  2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042};
+    static constexpr std::array<double, 31> table{0,     12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365,
+                                                  2.306, 2.262,  2.228, 2.201, 2.179, 2.160, 2.145, 2.131,
+                                                  2.120, 2.110,  2.101, 2.093, 2.086, 2.080, 2.074, 2.069,
+                                                  2.064, 2.060,  2.056, 2.052, 2.048, 2.045, 2.042};
     if (degrees_of_freedom < table.size()) return table[degrees_of_freedom];
     // Expansion in 1/n about the normal quantile (Abramowitz & Stegun 26.7.5).
     const double z = 1.959964, n = static_cast<double>(degrees_of_freedom);
@@ -64,8 +66,10 @@ LineUse count_line_use(const WalkStore& walks, const HeapLayout& layout, std::sp
     LineUse use;
     for (const CacheConfig& cache : caches) {
         const std::uint64_t first = layout.base / cache.line_bytes;
-        const std::uint64_t last = walks.photons() == 0 ? first
-                                                        : (layout.address(walks.photons()) + layout.used_bytes - 1) / cache.line_bytes;
+        const std::uint64_t last =
+            walks.photons() == 0
+                ? first
+                : (layout.address(walks.photons()) + layout.used_bytes - 1) / cache.line_bytes;
         use[cache.line_bytes].resize(last - first + 1);
     }
     tbb::enumerable_thread_specific<Part> parts([&] {
@@ -91,15 +95,18 @@ LineUse count_line_use(const WalkStore& walks, const HeapLayout& layout, std::sp
 void SetSample::check(std::span<const CacheConfig> caches, const Sampling& sampling) {
     const std::uint64_t one_of = sampling.one_of;
     if (!std::has_single_bit(one_of) || one_of < 2 || one_of > 1024)
-        throw trace::UsageError(fmt::format("sampling: found 1/{}, expected 1/2, 1/4, ... or 1/1024", one_of));
+        throw trace::UsageError(
+            fmt::format("sampling: found 1/{}, expected 1/2, 1/4, ... or 1/1024", one_of));
     for (const CacheConfig& cache : caches) {
         cachesim::check(cache);
         const bool full = cache.ways == cachesim::fully_associative;
         if (!family_serves(cache) || full || cache.sets() < 2 * one_of)
-            throw trace::UsageError(fmt::format(
-                "sampling: found 1/{} of the sets of a cache of {} bytes in lines of {} with {} ways, expected at least {} "
-                "sets of 1 to 32 ways",
-                one_of, cache.size_bytes, cache.line_bytes, full ? "all" : std::to_string(cache.ways), 2 * one_of));
+            throw trace::UsageError(
+                fmt::format("sampling: found 1/{} of the sets of a cache of {} bytes in lines of {} with {} "
+                            "ways, expected at least {} "
+                            "sets of 1 to 32 ways",
+                            one_of, cache.size_bytes, cache.line_bytes,
+                            full ? "all" : std::to_string(cache.ways), 2 * one_of));
     }
 }
 
@@ -119,7 +126,8 @@ SetSample::SetSample(const WalkStore& walks, const HeapLayout& layout, std::span
         size->classes = std::min(size->classes, cache.sets());
     }
     for (LineSize& size : sizes_) {
-        size.family = {.levels = {}, .distances = false, .conflicts = false, .stamps = std::uint64_t{1} << 18};
+        size.family = {
+            .levels = {}, .distances = false, .conflicts = false, .stamps = std::uint64_t{1} << 18};
         for (const CacheConfig& cache : caches_) {
             if (cache.line_bytes != size.line_bytes) continue;
             const std::uint64_t sets = cache.sets() / size.classes;
@@ -132,7 +140,8 @@ SetSample::SetSample(const WalkStore& walks, const HeapLayout& layout, std::span
         }
         size.sampled.assign(size.classes, unsampled);
         const std::vector<std::uint64_t> numbers = chosen(size.classes / one_of, size.classes, sampling.seed);
-        for (std::size_t n = 0; n < numbers.size(); ++n) size.sampled[numbers[n]] = static_cast<std::uint16_t>(n);
+        for (std::size_t n = 0; n < numbers.size(); ++n)
+            size.sampled[numbers[n]] = static_cast<std::uint16_t>(n);
         size.touches.resize(numbers.size());
         const std::vector<std::uint64_t>& by_line = use.at(size.line_bytes);
         const std::uint64_t first_line = layout.base >> std::countr_zero(size.line_bytes);
@@ -150,7 +159,11 @@ SetSample::SetSample(const WalkStore& walks, const HeapLayout& layout, std::span
 /// One replay's simulation of the sampled classes of a line size.
 struct SetSample::Run {
     Run(const LineSize& s, const HeapLayout& l, std::uint32_t photons)
-        : size(s), layout(l), lines(l, s.line_bytes, photons), shift(std::countr_zero(s.classes)), last(s.touches.size(), ~std::uint64_t{0}),
+        : size(s),
+          layout(l),
+          lines(l, s.line_bytes, photons),
+          shift(std::countr_zero(s.classes)),
+          last(s.touches.size(), ~std::uint64_t{0}),
           waiting(s.touches.size()) {
         for (std::size_t n = 0; n < s.touches.size(); ++n) classes.emplace_back(s.family);
         for (const std::uint16_t number : s.sampled) is_sampled.push_back(number != unsampled ? 1 : 0);
@@ -163,14 +176,15 @@ struct SetSample::Run {
         for (std::size_t i = 0; i < count; ++i) {
             const auto line = static_cast<std::uint64_t>(found[i]);
             const std::uint16_t n = sampled[line & mask];
-            if (last[n] == line) continue;  // the newest line of its class hits in every cache and changes nothing
+            if (last[n] == line)
+                continue;  // the newest line of its class hits in every cache and changes nothing
             last[n] = line;
             waiting[n].push_back(Line{line >> shift});
             if (waiting[n].size() == batch) pass(n);
         }
     }
-    /// Puts the touches of sampled lines into `found`; returns their number. Without a branch: few are sampled, and nobody
-    /// could foretell which.
+    /// Puts the touches of sampled lines into `found`; returns their number. Without a branch: few are
+    /// sampled, and nobody could foretell which.
     std::size_t find(std::span<const std::uint32_t> slots) {
         const std::uint8_t* const wanted = is_sampled.data();
         const std::uint64_t mask = size.classes - 1;
@@ -191,7 +205,8 @@ struct SetSample::Run {
         std::uint64_t on_two = 0;
         for (const std::uint32_t slot : slots) {
             const std::uint64_t address = layout.address(slot);
-            const std::uint64_t first = address >> line_shift, second = (address + layout.used_bytes - 1) >> line_shift;
+            const std::uint64_t first = address >> line_shift,
+                                second = (address + layout.used_bytes - 1) >> line_shift;
             const std::uint64_t two = second - first;
             on_two += two;
             to[count] = Line{first};
@@ -213,11 +228,13 @@ struct SetSample::Run {
         std::vector<double> misses(units);
         for (std::size_t u = 0; u < units; ++u) {
             pass(u);
-            misses[u] = static_cast<double>(classes[u].counts().misses(config.sets() / size.classes, config.ways));
+            misses[u] =
+                static_cast<double>(classes[u].counts().misses(config.sets() / size.classes, config.ways));
         }
         const double missed = std::accumulate(misses.begin(), misses.end(), 0.0);
         const double touched = std::accumulate(size.touches.begin(), size.touches.end(), 0.0);
-        // Without a touched line in the sample there is nothing to take a ratio to: every class counts the same.
+        // Without a touched line in the sample there is nothing to take a ratio to: every class counts the
+        // same.
         const double ratio = touched > 0 ? missed / touched : 0, mean = missed / n;
         const double total = touched > 0 ? ratio * size.all_touches : mean * all;
         double squares = 0;
@@ -225,8 +242,12 @@ struct SetSample::Run {
             squares += std::pow(misses[u] - (touched > 0 ? ratio * size.touches[u] : mean), 2);
         const double error = all * std::sqrt((1 - n / all) / n * squares / (n - 1));
         const double reach = student_quantile_95(units - 1) * error;
-        CacheTraffic result{.config = config, .accesses = accesses, .misses = static_cast<std::uint64_t>(std::llround(total)),
-                            .traffic_bytes = 0, .classes = {}, .error = SampleError{}};
+        CacheTraffic result{.config = config,
+                            .accesses = accesses,
+                            .misses = static_cast<std::uint64_t>(std::llround(total)),
+                            .traffic_bytes = 0,
+                            .classes = {},
+                            .error = SampleError{}};
         result.traffic_bytes = result.misses * config.line_bytes;
         result.error->sampled_sets = config.sets() / size.classes * units;
         result.error->standard_error = error;
@@ -254,9 +275,10 @@ Replayed SetSample::replay(std::span<const std::uint32_t> permutation, const Que
     runs.reserve(sizes_.size());
     for (const LineSize& size : sizes_) runs.emplace_back(size, layout_, walks_.photons());
     Replayed result;
-    result.visited_nodes = run_walks(walks_, permutation, progress, [&](std::span<const std::uint32_t> slots) {
-        for (Run& run : runs) run.visit(slots);
-    });
+    result.visited_nodes =
+        run_walks(walks_, permutation, progress, [&](std::span<const std::uint32_t> slots) {
+            for (Run& run : runs) run.visit(slots);
+        });
     result.raw_bytes = result.visited_nodes * layout_.used_bytes;
     for (const CacheConfig& cache : caches_)
         for (Run& run : runs)

@@ -53,7 +53,8 @@ WalkLines::First WalkLines::first(std::span<const Line> touches) {
     for (std::size_t i = 0; i < touches.size(); ++i) {
         std::uint32_t& entry = entries[static_cast<std::uint64_t>(touches[i]) - first_line];
         const std::uint32_t met = entry, fresh = met < base ? 1 : 0;
-        const std::uint32_t at = met ^ ((met ^ (base + count)) & (0 - fresh));  // without a branch: nobody could foretell it
+        const std::uint32_t at =
+            met ^ ((met ^ (base + count)) & (0 - fresh));  // without a branch: nobody could foretell it
         entry = at;
         lines[at - base] = touches[i];
         last[at - base] = static_cast<std::uint32_t>(i);
@@ -70,7 +71,8 @@ WalkLines::First WalkLines::first(std::span<const Line> touches) {
     }
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t word = last[i] / 64, bit = last[i] % 64;
-        last[i] = before_[word] + static_cast<std::uint32_t>(std::popcount(is_last_[word] & ((std::uint64_t{1} << bit) - 1)));
+        last[i] = before_[word] +
+                  static_cast<std::uint32_t>(std::popcount(is_last_[word] & ((std::uint64_t{1} << bit) - 1)));
     }
     return {{lines, count}, {last, count}};
 }

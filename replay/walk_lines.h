@@ -1,4 +1,5 @@
-// replay/walk_lines.h -- the cache lines that a walk touches: all of them in order, and each one's first touch.
+// replay/walk_lines.h -- the cache lines that a walk touches: all of them in order, and each one's first
+// touch.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -20,8 +21,8 @@ public:
     /// A node on two lines touches both, the lower one first. Valid until the next call.
     std::span<const cachesim::Line> touches(std::span<const std::uint32_t> slots);
 
-    /// What LruFamily::access_first() takes: the different lines in the order of their first touches, and the place of each
-    /// in the order of their last touches.
+    /// What LruFamily::access_first() takes: the different lines in the order of their first touches, and the
+    /// place of each in the order of their last touches.
     struct First {
         std::span<const cachesim::Line> lines;
         std::span<const std::uint32_t> last_rank;
@@ -34,7 +35,7 @@ private:
     int shift_;
     std::uint64_t first_line_;
     std::vector<cachesim::Line> touches_;
-    std::uint32_t base_ = 1;              // entries from here on are of this walk: base_ + place among its lines
+    std::uint32_t base_ = 1;  // entries from here on are of this walk: base_ + place among its lines
     std::vector<std::uint32_t> entry_;    // by line from first_line_ on
     std::vector<cachesim::Line> lines_;   // of the walk, in the order of first touches
     std::vector<std::uint32_t> last_;     // place of the last touch, then its rank

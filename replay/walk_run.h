@@ -1,4 +1,5 @@
-// replay/walk_run.h -- goes through walks in an order: decodes each, with what comes next on its way into the cache.
+// replay/walk_run.h -- goes through walks in an order: decodes each, with what comes next on its way into the
+// cache.
 #pragma once
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -19,8 +20,8 @@ namespace regather::replay {
 
 /// Calls visit(slots) for the walk of each query of `permutation`. Returns the number of visited nodes.
 template <class Visit>
-std::uint64_t run_walks(const WalkStore& walks, std::span<const std::uint32_t> permutation, const QueriesDone& progress,
-                        Visit&& visit) {
+std::uint64_t run_walks(const WalkStore& walks, std::span<const std::uint32_t> permutation,
+                        const QueriesDone& progress, Visit&& visit) {
     constexpr std::uint64_t prefetch_table = 32, prefetch_walk = 12, progress_queries = 1 << 16;
     spatial::WalkDecoder decoder(walks.photons());
     std::uint64_t visited = 0;
@@ -41,11 +42,13 @@ std::uint64_t run_walks(const WalkStore& walks, std::span<const std::uint32_t> p
     return visited;
 }
 
-/// Calls visit(part, slots) for the walk of every query, on all cores in any order: each thread has a Part of its own.
+/// Calls visit(part, slots) for the walk of every query, on all cores in any order: each thread has a Part of
+/// its own.
 template <class Part, class Visit>
-void run_all_walks(const WalkStore& walks, tbb::enumerable_thread_specific<Part>& parts, const QueriesDone& progress,
-                   Visit&& visit) {
-    tbb::enumerable_thread_specific<spatial::WalkDecoder> decoders([&] { return spatial::WalkDecoder(walks.photons()); });
+void run_all_walks(const WalkStore& walks, tbb::enumerable_thread_specific<Part>& parts,
+                   const QueriesDone& progress, Visit&& visit) {
+    tbb::enumerable_thread_specific<spatial::WalkDecoder> decoders(
+        [&] { return spatial::WalkDecoder(walks.photons()); });
     std::atomic<std::uint64_t> done = 0;
     tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, walks.queries(), 4096), [&](const auto& range) {
         spatial::WalkDecoder& decoder = decoders.local();

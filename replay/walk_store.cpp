@@ -34,8 +34,8 @@ WalkStore::WalkStore(std::uint32_t photons, std::span<const std::uint32_t> walk_
         start += walk_bytes[q];
     }
     if (start != walks.size())
-        throw trace::DataError(fmt::format("walk.npy: found {} bytes, expected {} as query_walk_bytes add up to",
-                                           walks.size(), start));
+        throw trace::DataError(fmt::format(
+            "walk.npy: found {} bytes, expected {} as query_walk_bytes add up to", walks.size(), start));
 }
 
 }  // namespace regather::replay

@@ -1,4 +1,5 @@
-// replay/walk_store.h -- the walks of a trace by query: where each starts, without a table of 8 bytes a query.
+// replay/walk_store.h -- the walks of a trace by query: where each starts, without a table of 8 bytes a
+// query.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -13,7 +14,8 @@ class WalkStore {
 public:
     /// Throws trace::DataError when the lengths do not add up to the bytes there are.
     explicit WalkStore(trace::TraceReader& trace);
-    WalkStore(std::uint32_t photons, std::span<const std::uint32_t> walk_bytes, std::span<const std::uint8_t> walks);
+    WalkStore(std::uint32_t photons, std::span<const std::uint32_t> walk_bytes,
+              std::span<const std::uint8_t> walks);
 
     std::uint64_t queries() const { return walk_bytes_.size(); }
     std::uint32_t photons() const { return photons_; }

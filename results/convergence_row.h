@@ -1,5 +1,5 @@
-// results/convergence_row.h -- one setting of the renderer: how long it took and how far its images were from the reference,
-// over several seeds; and a step of a ladder, which is a setting to be measured.
+// results/convergence_row.h -- one setting of the renderer: how long it took and how far its images were from
+// the reference, over several seeds; and a step of a ladder, which is a setting to be measured.
 #pragma once
 #include <optional>
 #include <string>
@@ -22,23 +22,27 @@ struct LadderRow {
 struct ConvergenceRow : LadderRow {
     std::string scene, reference;  ///< Reference: checksum of its pixels.
     Count shadow_rays, width, height;
-    Count seeds;                                 ///< Images rendered; all that follows is a mean over them.
-    Number render_seconds;                       ///< Queries and gathers.
+    Count seeds;            ///< Images rendered; all that follows is a mean over them.
+    Number render_seconds;  ///< Queries and gathers.
     Number photon_seconds, tree_seconds;
-    Number total_seconds;                        ///< The three together.
-    Count pixels;                                ///< That count for RMSE, bias and variance: no lights and their edges.
-    Number rmse;                                 ///< [W / (m^2 sr)] The reference's own error is taken off.
-    std::optional<bool> below_reference;         ///< `rmse` is not told apart from the reference's error, which stands there.
-    Number rel_mse, rel_mse_trimmed, mape, ldr_flip, hdr_flip;  ///< As measured: with the reference's error in them.
-    Number variance;                             ///< Mean over pixels and channels [(W / (m^2 sr))^2].
-    Number bias_squared;                         ///< Estimate without bias of its own: around 0 it may be negative.
+    Number total_seconds;  ///< The three together.
+    Count pixels;          ///< That count for RMSE, bias and variance: no lights and their edges.
+    Number rmse;           ///< [W / (m^2 sr)] The reference's own error is taken off.
+    std::optional<bool>
+        below_reference;  ///< `rmse` is not told apart from the reference's error, which stands there.
+    Number rel_mse, rel_mse_trimmed, mape, ldr_flip,
+        hdr_flip;         ///< As measured: with the reference's error in them.
+    Number variance;      ///< Mean over pixels and channels [(W / (m^2 sr))^2].
+    Number bias_squared;  ///< Estimate without bias of its own: around 0 it may be negative.
     Number bias_squared_stderr;
-    Number interior_variance, interior_bias_squared, interior_bias_squared_stderr;  ///< Away from edges of surfaces ...
-    Count interior_pixels;                                                          ///< ... in so many pixels ...
-    Number interior_radius, interior_mean_radiance;  ///< ... so far from them, of so much radiance in the reference.
-    Number efficiency;                           ///< 1 / (variance x total seconds)
-    Number mean_radiance, reference_rmse;        ///< Of the reference; its error as its own variance tells.
-    Count nonfinite;  ///< Values that were no numbers, over all images.
+    Number interior_variance, interior_bias_squared,
+        interior_bias_squared_stderr;  ///< Away from edges of surfaces ...
+    Count interior_pixels;             ///< ... in so many pixels ...
+    Number interior_radius,
+        interior_mean_radiance;            ///< ... so far from them, of so much radiance in the reference.
+    Number efficiency;                     ///< 1 / (variance x total seconds)
+    Number mean_radiance, reference_rmse;  ///< Of the reference; its error as its own variance tells.
+    Count nonfinite;                       ///< Values that were no numbers, over all images.
 };
 
 }  // namespace regather::results

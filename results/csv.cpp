@@ -170,7 +170,8 @@ struct CellReader {
     }
     const char* operator()(SignedReal<R> number) const {
         double value = 0;
-        if (parse(text, value) != std::errc{} || !std::isfinite(value)) return "a decimal number or an empty cell";
+        if (parse(text, value) != std::errc{} || !std::isfinite(value))
+            return "a decimal number or an empty cell";
         row.*number.field = value;
         return nullptr;
     }

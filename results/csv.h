@@ -49,12 +49,14 @@ struct SignedReal {
 template <class R>
 struct Column {
     std::string_view name;
-    std::variant<std::string R::*, Count R::*, Signed R::*, Flag R::*, Ways<R>, Seconds<R>, Real<R>, SignedReal<R>> field;
+    std::variant<std::string R::*, Count R::*, Signed R::*, Flag R::*, Ways<R>, Seconds<R>, Real<R>,
+                 SignedReal<R>>
+        field;
     bool needed = false;  ///< A file without it is refused.
 };
 
-/// In the order in which they are written. R is a kind of row, here and below: Row, DetailRow, TimelineRow, SamplingRow,
-/// ConvergenceRow, LadderRow, StabilityRow.
+/// In the order in which they are written. R is a kind of row, here and below: Row, DetailRow, TimelineRow,
+/// SamplingRow, ConvergenceRow, LadderRow, StabilityRow.
 template <class R>
 std::span<const Column<R>> columns();
 

@@ -17,9 +17,10 @@ std::filesystem::path provenance_path(const std::filesystem::path& csv) {
 void refuse_to_overwrite(const std::filesystem::path& csv, bool force) {
     const std::filesystem::path json = provenance_path(csv);
     if (json == csv)
-        throw trace::UsageError(fmt::format("--csv: found {}, expected another ending than .json, which the provenance "
-                                            "beside it bears",
-                                            csv.string()));
+        throw trace::UsageError(
+            fmt::format("--csv: found {}, expected another ending than .json, which the provenance "
+                        "beside it bears",
+                        csv.string()));
     if (force) return;
     for (const std::filesystem::path& file : {csv, json})
         if (std::filesystem::exists(file))
@@ -39,7 +40,7 @@ void write_provenance(const std::filesystem::path& csv, const Provenance& proven
     out["trace_parameters"] = trace_parameters;
     // A command line may hold bytes that are no UTF-8: replaced, not thrown at the end of a long run.
     trace::write_file(provenance_path(csv),
-               out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+                      out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace regather::results

@@ -18,8 +18,8 @@ struct Provenance {
 /// "runs/room.csv" -> "runs/room.json".
 std::filesystem::path provenance_path(const std::filesystem::path& csv);
 
-/// Throws trace::UsageError when `csv` or the JSON beside it exists, unless forced: somebody's X.json is not ours to
-/// replace. And when `csv` bears the JSON's name, forced or not.
+/// Throws trace::UsageError when `csv` or the JSON beside it exists, unless forced: somebody's X.json is not
+/// ours to replace. And when `csv` bears the JSON's name, forced or not.
 void refuse_to_overwrite(const std::filesystem::path& csv, bool force);
 
 /// Writes the JSON beside `csv`; `trace_parameters` goes in as it is (null when no trace was read).

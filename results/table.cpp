@@ -7,9 +7,9 @@
 #include <iterator>
 #include <vector>
 
-#include "results/benefit.h"
-#include "results/geometry.h"
-#include "results/series.h"
+#include "charts/benefit.h"
+#include "charts/geometry.h"
+#include "charts/series.h"
 
 namespace regather::results {
 namespace {

@@ -126,7 +126,8 @@ void Node::check_object(const Kind& kind, std::string_view noun) const {
         if (std::find(names.begin(), names.end(), name) != names.end()) continue;
         Node(value, joined(path_, name), *file_)
             .fail("unknown key " + in_quotes(name),
-                  fmt::format("{} (keys of a {}{}{}: {})", trace::alternatives(trace::nearest_words(name, names)), kind.name,
+                  fmt::format("{} (keys of a {}{}{}: {})",
+                              trace::alternatives(trace::nearest_words(name, names)), kind.name,
                               noun.empty() ? "" : " ", noun, trace::listed(names)));
     }
     for (const Key& key : kind.keys)
@@ -161,7 +162,8 @@ const Kind& Node::check_object(std::span<const Kind> kinds, std::string_view dis
             return kind;
         }
     type.fail(in_quotes(name),
-              fmt::format("{} ({}s: {})", trace::alternatives(trace::nearest_words(name, names)), noun, trace::listed(names)));
+              fmt::format("{} ({}s: {})", trace::alternatives(trace::nearest_words(name, names)), noun,
+                          trace::listed(names)));
 }
 
 bool Node::has(std::string_view key) const {

@@ -19,7 +19,8 @@ constexpr std::string_view positive_length = "a length [m], above 0 and at most 
 constexpr std::string_view segments = "a whole number of segments, from 3 to 4096";
 constexpr std::string_view radiance = "three radiances [W/(m^2 sr)], each from 0 to 1e12, not all zero";
 constexpr std::string_view power = "three powers [W], each from 0 to 1e12, not all zero";
-constexpr std::string_view mesh_file = "the name of an .obj, .ply, .gltf or .glb file, relative to the scene file";
+constexpr std::string_view mesh_file =
+    "the name of an .obj, .ply, .gltf or .glb file, relative to the scene file";
 constexpr std::string_view scale = "a factor, above 0 and at most 1e6";
 constexpr std::string_view up_axis = "\"y\" or \"z\"";
 
@@ -57,42 +58,42 @@ const Kind& camera_path_kind() {
 }
 
 const Kind& key_frame_kind() {
-    static const Kind kind{"key frame",
-                           {{"frame", required, "a whole number, below frames and above the key frame before"},
-                            {"position", required, point},
-                            {"target", required, point},
-                            {"up", optional, direction}}};
+    static const Kind kind{
+        "key frame",
+        {{"frame", required, "a whole number, below frames and above the key frame before"},
+         {"position", required, point},
+         {"target", required, point},
+         {"up", optional, direction}}};
     return kind;
 }
 
 std::span<const Kind> light_kinds() {
-    static const std::vector<Kind> kinds{
-        {"rectangle",
-         {{"type", optional, "the type of a light"},
-          {"corner", required, point},
-          {"edge_u", required, edge},
-          {"edge_v", required, edge},
-          {"radiance", optional, radiance},
-          {"power", optional, power},
-          {"material", optional, material}}},
-        {"sphere",
-         {{"type", required, "the type of a light"},
-          {"center", required, point},
-          {"radius", required, positive_length},
-          {"segments", required, segments},
-          {"radiance", optional, radiance},
-          {"power", optional, power},
-          {"material", optional, material}}},
-        {"mesh",
-         {{"type", required, "the type of a light"},
-          {"file", required, mesh_file},
-          {"up_axis", optional, up_axis},
-          {"scale", optional, scale},
-          {"rotate_z_degrees", optional, degrees},
-          {"translate", optional, point},
-          {"radiance", optional, radiance},
-          {"power", optional, power},
-          {"material", optional, material}}}};
+    static const std::vector<Kind> kinds{{"rectangle",
+                                          {{"type", optional, "the type of a light"},
+                                           {"corner", required, point},
+                                           {"edge_u", required, edge},
+                                           {"edge_v", required, edge},
+                                           {"radiance", optional, radiance},
+                                           {"power", optional, power},
+                                           {"material", optional, material}}},
+                                         {"sphere",
+                                          {{"type", required, "the type of a light"},
+                                           {"center", required, point},
+                                           {"radius", required, positive_length},
+                                           {"segments", required, segments},
+                                           {"radiance", optional, radiance},
+                                           {"power", optional, power},
+                                           {"material", optional, material}}},
+                                         {"mesh",
+                                          {{"type", required, "the type of a light"},
+                                           {"file", required, mesh_file},
+                                           {"up_axis", optional, up_axis},
+                                           {"scale", optional, scale},
+                                           {"rotate_z_degrees", optional, degrees},
+                                           {"translate", optional, point},
+                                           {"radiance", optional, radiance},
+                                           {"power", optional, power},
+                                           {"material", optional, material}}}};
     return kinds;
 }
 
@@ -136,7 +137,8 @@ std::span<const Kind> shape_kinds() {
          {{"type", required, "the type of a shape"},
           {"material", required, material},
           {"center", required, point},
-          {"profile", required, "a list of 2 to 4096 points [radius, height] in metres, no point twice in a row"},
+          {"profile", required,
+           "a list of 2 to 4096 points [radius, height] in metres, no point twice in a row"},
           {"segments", required, segments},
           {"smooth", optional, "true or false"}}},
         {"torus",
@@ -162,7 +164,8 @@ std::span<const Kind> shape_kinds() {
          {{"type", required, "the type of a shape"},
           {"file", required, mesh_file},
           {"material", optional, material},
-          {"materials", optional, "an object: name of a material in the file to name of a material of the scene"},
+          {"materials", optional,
+           "an object: name of a material in the file to name of a material of the scene"},
           {"up_axis", optional, up_axis},
           {"scale", optional, scale},
           {"rotate_z_degrees", optional, degrees},

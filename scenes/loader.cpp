@@ -23,7 +23,8 @@ using trace::UsageError;
 namespace {
 
 constexpr std::uintmax_t most_file_bytes = 256u << 20;
-// A scene farther from its origin than this many of its sizes is recentred: 10 of a float's 24 bits are then lost.
+// A scene farther from its origin than this many of its sizes is recentred: 10 of a float's 24 bits are then
+// lost.
 constexpr double far_in_sizes = 64;
 
 double size_of(const Bounds3& bounds) {
@@ -31,8 +32,8 @@ double size_of(const Bounds3& bounds) {
     return std::max({double{extent.x}, double{extent.y}, double{extent.z}});
 }
 
-// [m] The bounds' middle in the file's coordinates, to a multiple of a power of two about as large as the scene: the doubles
-// less it are exact.
+// [m] The bounds' middle in the file's coordinates, to a multiple of a power of two about as large as the
+// scene: the doubles less it are exact.
 std::array<double, 3> rounded_middle(const Scene& scene) {
     const Bounds3 bounds = scene.bounds();
     const double grain = std::exp2(std::ceil(std::log2(std::max(size_of(bounds), 1e-9))));
@@ -86,8 +87,9 @@ Scene load_scene(std::string_view name_or_path) {
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) {
         if (file.find('/') == std::string::npos && !path.has_extension())
-            throw UsageError(fmt::format("scene: found {}, expected {} or a JSON file (embedded scenes: {})",
-                                         in_quotes(file), trace::alternatives(trace::nearest_words(file, names)), trace::listed(names)));
+            throw UsageError(fmt::format(
+                "scene: found {}, expected {} or a JSON file (embedded scenes: {})", in_quotes(file),
+                trace::alternatives(trace::nearest_words(file, names)), trace::listed(names)));
         throw DataError(
             fmt::format("{}: found no file, expected a JSON scene or one of the embedded scenes {}", file,
                         trace::listed(names)));

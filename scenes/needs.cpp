@@ -67,27 +67,33 @@ Needs needs_of(const Scene& scene) {
                            mirrors ? describe(specular, "mirror or dielectric materials")
                                    : "No triangle is a mirror or a dielectric."};
     needs.caustics = {"caustics", lit && mirrors,
-                      lit && mirrors ? "Light of the area lights may reach other surfaces by way of specular ones."
-                      : mirrors      ? "The scene has no light of area whose light could be gathered."
-                                     : "No triangle is a mirror or a dielectric: no path makes a caustic."};
+                      lit && mirrors
+                          ? "Light of the area lights may reach other surfaces by way of specular ones."
+                      : mirrors ? "The scene has no light of area whose light could be gathered."
+                                : "No triangle is a mirror or a dielectric: no path makes a caustic."};
     const bool gloss = glossy.triangles > 0;
     needs.glossy_lobes = {"glossy_lobes", gloss,
                           gloss ? describe(glossy, "glossy materials") : "No triangle is glossy.", false};
     const bool moves = !scene.camera_path.empty();
-    needs.camera_path = {"camera_path", moves,
-                         moves ? fmt::format("The camera moves through {} frames.", scene.frames) : "The camera stands still.", false};
+    needs.camera_path = {
+        "camera_path", moves,
+        moves ? fmt::format("The camera moves through {} frames.", scene.frames) : "The camera stands still.",
+        false};
     return needs;
 }
 
 void Needs::keep(const std::set<std::string>& parts) {
     std::array<Need*, 5> all{&shadow_rays, &specular_rays, &caustics, &glossy_lobes, &camera_path};
     for (const std::string& part : parts) {
-        const auto found = std::find_if(all.begin(), all.end(), [&](const Need* need) { return need->can_be_kept && need->part == part; });
+        const auto found = std::find_if(all.begin(), all.end(), [&](const Need* need) {
+            return need->can_be_kept && need->part == part;
+        });
         if (found == all.end()) {
             std::vector<std::string_view> names;
             for (const Need* need : all)
                 if (need->can_be_kept) names.push_back(need->part);
-            throw trace::UsageError(fmt::format("keep: found the unknown part '{}', expected {}", part, trace::listed(names)));
+            throw trace::UsageError(
+                fmt::format("keep: found the unknown part '{}', expected {}", part, trace::listed(names)));
         }
         if ((*found)->needed) continue;
         (*found)->reason = "Kept although it is not needed: " + (*found)->reason;

@@ -24,16 +24,19 @@ struct Material {
     Vec3 diffuse{0.5f, 0.5f, 0.5f};  ///< Lambertian albedo (diffuse, glossy).
     Vec3 specular{};                 ///< Albedo of the Blinn-Phong lobe (glossy); reflectance (mirror).
     float exponent = 50;             ///< Blinn-Phong exponent (glossy), >= 1.
-    float index_of_refraction = 1.5f;  ///< Inside / outside (dielectric), >= 1. Outside: against the triangle's winding.
+    float index_of_refraction =
+        1.5f;  ///< Inside / outside (dielectric), >= 1. Outside: against the triangle's winding.
 };
 
-/// Emits `radiance` evenly, Lambertian, on the outside of its triangles, which are in the scene, too. A rectangle (any
-/// parallelogram) emits on the side of cross(edge_u, edge_v); a mesh light is the run of triangles that it names.
+/// Emits `radiance` evenly, Lambertian, on the outside of its triangles, which are in the scene, too. A
+/// rectangle (any parallelogram) emits on the side of cross(edge_u, edge_v); a mesh light is the run of
+/// triangles that it names.
 struct AreaLight {
     Vec3 corner, edge_u, edge_v;  ///< Of a rectangle; zero for a mesh.
     Vec3 radiance;                ///< [W / (m^2 sr)]
-    std::uint32_t first_triangle = 0, triangle_count = 0;  ///< Of a mesh: its triangles; a rectangle says 0, 0.
-    float mesh_area = 0;                                   ///< Of a mesh: the sum over its triangles [m^2].
+    std::uint32_t first_triangle = 0,
+                  triangle_count = 0;  ///< Of a mesh: its triangles; a rectangle says 0, 0.
+    float mesh_area = 0;               ///< Of a mesh: the sum over its triangles [m^2].
 
     bool is_mesh() const { return triangle_count > 0; }
     Vec3 normal() const { return trace::normalize(cross(edge_u, edge_v)); }  ///< Of a rectangle.
@@ -52,7 +55,8 @@ struct KeyFrame {
     Vec3 position, target, up{0, 0, 1};
 };
 
-/// Triangle t has vertices[triangles[t][0..2]]; counter-clockwise seen from outside (the side its normal points to).
+/// Triangle t has vertices[triangles[t][0..2]]; counter-clockwise seen from outside (the side its normal
+/// points to).
 struct Scene {
     std::string name;
     std::vector<Vec3> vertices;
@@ -66,7 +70,8 @@ struct Scene {
     std::vector<KeyFrame> camera_path;  ///< By rising frame, the first is 0; empty: the camera stands still.
     std::uint32_t frames = 1;           ///< Of the camera path.
     std::string origin, licence;        ///< Where the scene is from; empty when it does not say.
-    std::array<double, 3> recentred_by{};  ///< [m] Taken off all coordinates of the file, for the sake of floats.
+    std::array<double, 3>
+        recentred_by{};  ///< [m] Taken off all coordinates of the file, for the sake of floats.
     std::uint64_t degenerate_faces_dropped = 0;  ///< Faces of mesh files without area, left out.
 
     Bounds3 bounds() const { return trace::bounds_of(vertices); }

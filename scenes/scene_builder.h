@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "meshes/mesh.h"
 #include "scenes/document.h"
-#include "scenes/mesh.h"
 #include "scenes/scene.h"
 
 namespace regather::scenes {

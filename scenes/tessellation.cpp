@@ -159,17 +159,21 @@ Surface tessellate(const Sphere& sphere) {
 Surface tessellate(const Ripple& ripple) {
     Surface surface;
     const std::uint32_t n = ripple.cells;
-    const double turns = 2 * std::numbers::pi / ripple.wavelength, phase = ripple.phase_degrees * radians_per_degree;
+    const double turns = 2 * std::numbers::pi / ripple.wavelength,
+                 phase = ripple.phase_degrees * radians_per_degree;
     const float half = ripple.size / 2;
     const Vec3 c = ripple.center;
     for (std::uint32_t j = 0; j <= n; ++j)
         for (std::uint32_t i = 0; i <= n; ++i) {
             const Vec3 p{between(c.x - half, c.x + half, i, n), between(c.y - half, c.y + half, j, n), 0};
-            const double x = static_cast<double>(p.x) - c.x, y = static_cast<double>(p.y) - c.y, r = std::hypot(x, y);
+            const double x = static_cast<double>(p.x) - c.x, y = static_cast<double>(p.y) - c.y,
+                         r = std::hypot(x, y);
             const double angle = turns * r - phase, slope = -ripple.amplitude * turns * std::sin(angle);
-            surface.vertices.push_back({p.x, p.y, static_cast<float>(c.z + ripple.amplitude * std::cos(angle))});
+            surface.vertices.push_back(
+                {p.x, p.y, static_cast<float>(c.z + ripple.amplitude * std::cos(angle))});
             const double along = r > 0 ? slope / r : 0;
-            surface.normals.push_back(trace::normalize({static_cast<float>(-along * x), static_cast<float>(-along * y), 1}));
+            surface.normals.push_back(
+                trace::normalize({static_cast<float>(-along * x), static_cast<float>(-along * y), 1}));
         }
     add_grid_triangles(surface, 0, n, n);
     if (!(ripple.depth > 0)) return surface;
@@ -181,7 +185,8 @@ Surface tessellate(const Ripple& ripple) {
     for (std::uint32_t i = n; i > 0; --i) boundary.push_back(n * (n + 1) + i);
     for (std::uint32_t j = n; j > 0; --j) boundary.push_back(j * (n + 1));
     const auto around = static_cast<std::uint32_t>(boundary.size());
-    const auto upper = static_cast<std::uint32_t>(surface.vertices.size()), lower = upper + around, middle = lower + around;
+    const auto upper = static_cast<std::uint32_t>(surface.vertices.size()), lower = upper + around,
+               middle = lower + around;
     for (const std::uint32_t b : boundary) surface.vertices.push_back(surface.vertices[b]);
     for (const std::uint32_t b : boundary)
         surface.vertices.push_back({surface.vertices[b].x, surface.vertices[b].y, c.z - ripple.depth});

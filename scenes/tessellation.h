@@ -1,7 +1,7 @@
-// scenes/tessellation.h -- triangles of the shapes that a scene file can name: quads, boxes, spheres and rippled water;
-// surfaces of revolution are in scenes/revolution.h. Lengths in metres. Triangles are counter-clockwise seen from outside. A
-// closed shape is watertight to the last bit: each edge is shared by exactly two triangles whose corners there are equal, seen
-// in opposite directions.
+// scenes/tessellation.h -- triangles of the shapes that a scene file can name: quads, boxes, spheres and
+// rippled water; surfaces of revolution are in scenes/revolution.h. Lengths in metres. Triangles are
+// counter-clockwise seen from outside. A closed shape is watertight to the last bit: each edge is shared by
+// exactly two triangles whose corners there are equal, seen in opposite directions.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -42,13 +42,15 @@ struct Sphere {
     std::uint32_t segments = 32;  ///< Around the z axis, >= 3; half as many (at least 2) from pole to pole.
 };
 
-/// A square of water, seen from above, whose surface is z = center.z + amplitude cos(2 pi (r / wavelength) - phase), r the
-/// distance from the centre: the circular waves of a drop.
+/// A square of water, seen from above, whose surface is z = center.z + amplitude cos(2 pi (r / wavelength) -
+/// phase), r the distance from the centre: the circular waves of a drop.
 struct Ripple {
     Vec3 center;  ///< On the still surface.
-    float size = 1, amplitude = 0.01f, wavelength = 0.2f;  ///< Edge of the square, half of crest to trough [m].
+    float size = 1, amplitude = 0.01f,
+          wavelength = 0.2f;  ///< Edge of the square, half of crest to trough [m].
     double phase_degrees = 0;
-    float depth = 0;           ///< [m] From the still surface to a flat bottom, > amplitude: a closed shape; 0: the surface alone.
+    float depth = 0;  ///< [m] From the still surface to a flat bottom, > amplitude: a closed shape; 0: the
+                      ///< surface alone.
     std::uint32_t cells = 64;  ///< Along each edge, >= 1.
 };
 
@@ -70,7 +72,8 @@ double triangle_area(Vec3 a, Vec3 b, Vec3 c);
 /// How many triangles have no area in float coordinates.
 std::uint64_t degenerate_count(const Surface&);
 
-/// Takes those triangles out and tells how many they were; of `tags`, one a triangle, those that belong to them.
+/// Takes those triangles out and tells how many they were; of `tags`, one a triangle, those that belong to
+/// them.
 std::uint64_t drop_degenerate(Surface&, std::vector<std::uint32_t>* tags = nullptr);
 
 }  // namespace regather::scenes

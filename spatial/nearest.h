@@ -1,6 +1,6 @@
-// spatial/nearest.h -- the k nearest photons of a point: near child first, far child if it can still help (Jensen
-// 2001, section 6.3.1), with the exact running bound of a max-heap. One search serves the renderer, which passes
-// Unheard and pays nothing, and the recorder of walks (spatial/walk.h), which listens.
+// spatial/nearest.h -- the k nearest photons of a point: near child first, far child if it can still help
+// (Jensen 2001, section 6.3.1), with the exact running bound of a max-heap. One search serves the renderer,
+// which passes Unheard and pays nothing, and the recorder of walks (spatial/walk.h), which listens.
 #pragma once
 #include <algorithm>
 #include <bit>
@@ -19,8 +19,8 @@ struct Neighbor {
     std::uint32_t node;  ///< Heap position, from 0.
 };
 
-/// The best `capacity` photons met so far within a radius. Equal distances: the smaller node number wins, so the
-/// result does not depend on the order in which photons are offered.
+/// The best `capacity` photons met so far within a radius. Equal distances: the smaller node number wins, so
+/// the result does not depend on the order in which photons are offered.
 class NearestSet {
 public:
     /// `radius` in scene units, may be infinite; a photon at exactly the radius is found.
@@ -54,7 +54,8 @@ public:
     std::uint32_t capacity() const { return capacity_; }
     std::size_t size() const { return keys_.size(); }
     bool full() const { return keys_.size() == capacity_; }
-    Neighbor operator[](std::size_t i) const {  ///< The farthest first when full(), then in some, repeatable, order.
+    Neighbor operator[](
+        std::size_t i) const {  ///< The farthest first when full(), then in some, repeatable, order.
         return {distance_of(keys_[i]), static_cast<std::uint32_t>(keys_[i])};
     }
     std::vector<Neighbor> nearest_first() const {
@@ -65,8 +66,8 @@ public:
         for (std::uint64_t k : sorted) list.push_back({distance_of(k), static_cast<std::uint32_t>(k)});
         return list;
     }
-    /// Squared radius of the disc that the found photons stand for: the farthest photon's when the set is full, else
-    /// the search radius', or the farthest one's where that is infinite. 0 when nothing was found.
+    /// Squared radius of the disc that the found photons stand for: the farthest photon's when the set is
+    /// full, else the search radius', or the farthest one's where that is infinite. 0 when nothing was found.
     float disc_radius2() const {
         if (keys_.empty()) return 0;
         if (!full() && std::isfinite(radius2_)) return radius2_;
@@ -74,11 +75,14 @@ public:
     }
 
 private:
-    // Squared distances are not negative, so their bit patterns sort as they do: one integer holds (distance, node).
+    // Squared distances are not negative, so their bit patterns sort as they do: one integer holds (distance,
+    // node).
     static std::uint64_t key(float distance2, std::uint32_t node) {
         return std::uint64_t{std::bit_cast<std::uint32_t>(distance2)} << 32 | node;
     }
-    static float distance_of(std::uint64_t k) { return std::bit_cast<float>(static_cast<std::uint32_t>(k >> 32)); }
+    static float distance_of(std::uint64_t k) {
+        return std::bit_cast<float>(static_cast<std::uint32_t>(k >> 32));
+    }
 
     void replace_farthest(std::uint64_t candidate) {
         const std::size_t n = keys_.size();
@@ -105,9 +109,9 @@ struct Unheard {
     void far(bool) {}             ///< When the near subtree is done: is the far child entered?
 };
 
-/// Fills `found` with the nearest photons of `point`; nothing for a point that is not finite or an empty tree.
-/// The pruning is exact in floating point: subtraction, squaring and adding round monotonically, so no photon behind
-/// a split plane can have a smaller computed distance than the plane.
+/// Fills `found` with the nearest photons of `point`; nothing for a point that is not finite or an empty
+/// tree. The pruning is exact in floating point: subtraction, squaring and adding round monotonically, so no
+/// photon behind a split plane can have a smaller computed distance than the plane.
 template <class Listener = Unheard>
 void nearest(const PhotonKd& tree, Vec3 point, NearestSet& found, Listener&& listener = {}) {
     struct Pending {

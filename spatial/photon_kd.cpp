@@ -93,8 +93,8 @@ std::uint32_t first_disorder(const PhotonKd& tree) {
             for (std::uint64_t slot = i + std::uint64_t{1}; fits && slot > 1; slot /= 2) {
                 const Photon& parent = nodes[slot / 2 - 1];
                 if (PhotonKd::axis(parent) == 3) break;
-                const float delta = nodes[i].position[PhotonKd::axis(parent)] -
-                                    parent.position[PhotonKd::axis(parent)];
+                const float delta =
+                    nodes[i].position[PhotonKd::axis(parent)] - parent.position[PhotonKd::axis(parent)];
                 fits = slot % 2 == 0 ? delta <= 0 : delta >= 0;
             }
             if (!fits) {

@@ -15,8 +15,8 @@ struct Recording {
     std::uint64_t found_photons = 0, visited_nodes = 0;
 };
 
-/// The walks of the `k` nearest photons within `radius` [scene units] of each point; a point that is not finite has an empty
-/// walk. The same on any number of threads.
+/// The walks of the `k` nearest photons within `radius` [scene units] of each point; a point that is not
+/// finite has an empty walk. The same on any number of threads.
 Recording record_walks(const PhotonKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius);
 
 }  // namespace regather::spatial

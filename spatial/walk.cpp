@@ -9,10 +9,10 @@
 namespace regather::spatial {
 namespace {
 
-constexpr std::size_t padding = 24;    // bytes that may be read past a walk
-constexpr std::size_t margin = 64;     // nodes that one step may write
-constexpr int whole_bits = 57;         // that bits_at() gives at least
-constexpr int subtree_bits = 6;        // that a subtree of seven nodes takes at most
+constexpr std::size_t padding = 24;  // bytes that may be read past a walk
+constexpr std::size_t margin = 64;   // nodes that one step may write
+constexpr int whole_bits = 57;       // that bits_at() gives at least
+constexpr int subtree_bits = 6;      // that a subtree of seven nodes takes at most
 constexpr std::size_t small_subtrees = std::size_t{1} << subtree_bits;  // where those of three nodes start
 
 /// The bits from `position` on, at the top of the word.
@@ -109,7 +109,7 @@ WalkDecoder::Visits WalkDecoder::decode(std::span<const std::uint8_t> walk) {
         const int most_bits = 2 * cut_ + subtree_bits + 1;
         const bool refetch = most_bits > whole_bits;
         std::uint64_t position = 0, bits = 0;  // bits from `position` on, `held` of them
-        std::uint64_t pending = 0;             // bit l: the far child of the path's node on level l is undecided
+        std::uint64_t pending = 0;  // bit l: the far child of the path's node on level l is undecided
         std::uint64_t slot = 1;
         std::size_t count = 0;
         int held = 0, level = 0;
@@ -135,8 +135,10 @@ WalkDecoder::Visits WalkDecoder::decode(std::span<const std::uint8_t> walk) {
                 const SubtreeVisits& visits =
                     table[seven ? bits >> (64 - subtree_bits) : small_subtrees + (bits >> 62)];
                 const __m256i root = _mm256_set1_epi32(static_cast<int>(slot));
-                const __m256i levels = _mm256_load_si256(reinterpret_cast<const __m256i*>(visits.level.data()));
-                const __m256i offsets = _mm256_load_si256(reinterpret_cast<const __m256i*>(visits.offset.data()));
+                const __m256i levels =
+                    _mm256_load_si256(reinterpret_cast<const __m256i*>(visits.level.data()));
+                const __m256i offsets =
+                    _mm256_load_si256(reinterpret_cast<const __m256i*>(visits.offset.data()));
                 _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
                                     _mm256_add_epi32(_mm256_sllv_epi32(root, levels), offsets));
                 count += static_cast<std::size_t>(steps + visits.count);

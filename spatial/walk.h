@@ -1,12 +1,14 @@
-// spatial/walk.h -- the walk of a kNN search as bits, and back. A search of the left-balanced tree makes two decisions at
-// each visited node that has a child: which child first, and later whether the other one is entered. These bits, in the
-// order of the decisions, give the visited nodes back without searching: 2 bits a visited inner node, none for a leaf.
+// spatial/walk.h -- the walk of a kNN search as bits, and back. A search of the left-balanced tree makes two
+// decisions at each visited node that has a child: which child first, and later whether the other one is
+// entered. These bits, in the order of the decisions, give the visited nodes back without searching: 2 bits a
+// visited inner node, none for a leaf.
 //
-// Grammar (bits from the most significant of each byte, as numpy.unpackbits reads them; a walk starts on a byte and is
-// padded with zeros). A search that visits nothing has a walk of no bytes; any other walk has at least one byte.
+// Grammar (bits from the most significant of each byte, as numpy.unpackbits reads them; a walk starts on a
+// byte and is padded with zeros). A search that visits nothing has a walk of no bytes; any other walk has at
+// least one byte.
 //   walk(node): the node is visited; then, if it has a child:
-//   near bit: 1 = the upper child (2i+1, counted from 1) comes first; then the walk of that child, if it exists;
-//   far bit:  1 = the other child exists and is entered; then its walk.
+//   near bit: 1 = the upper child (2i+1, counted from 1) comes first; then the walk of that child, if it
+//   exists; far bit:  1 = the other child exists and is entered; then its walk.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -75,11 +77,12 @@ enum class WalkFault : std::uint8_t { none, ends_early, bytes_left_over, enters_
 
 /// Decodes walks over a left-balanced tree. One thread at a time.
 ///
-/// The tree is cut at the third level from below. Above it every node has two children, so a descent is a run of near bits
-/// whose length is known: it is read at once, and the nodes are prefixes of one number; the far children that are not
-/// yet decided are a set of levels, and a run of zero far bits drops as many of them. Below it are subtrees of seven
-/// nodes, or three where the deepest level has ended: the next six, or two, bits look their visits up in a table. So a
-/// step takes about six nodes, and no branch of it depends on the bits.
+/// The tree is cut at the third level from below. Above it every node has two children, so a descent is a run
+/// of near bits whose length is known: it is read at once, and the nodes are prefixes of one number; the far
+/// children that are not yet decided are a set of levels, and a run of zero far bits drops as many of them.
+/// Below it are subtrees of seven nodes, or three where the deepest level has ended: the next six, or two,
+/// bits look their visits up in a table. So a step takes about six nodes, and no branch of it depends on the
+/// bits.
 class WalkDecoder {
 public:
     explicit WalkDecoder(std::uint32_t photons);
@@ -96,7 +99,7 @@ private:
     void subtree(Cursor& cursor, std::uint64_t slot);
 
     std::uint32_t photons_;
-    int cut_;                           // level of the subtrees' roots; below 0 in a tree of fewer than four nodes
+    int cut_;  // level of the subtrees' roots; below 0 in a tree of fewer than four nodes
     std::vector<std::uint8_t> padded_;  // the walk, and zeros
     std::vector<std::uint32_t> visited_;
 };

@@ -30,7 +30,9 @@ double diagonal_of(const scenes::Scene& scene) {
 
 class Clock {
 public:
-    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
 
 private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -52,7 +54,8 @@ std::uint64_t pixels_in(const std::vector<std::uint8_t>& mask) {
 
 }  // namespace
 
-capture::CaptureConfig capture_config(const Setting& setting, const ConvergenceConfig& config, std::uint64_t seed) {
+capture::CaptureConfig capture_config(const Setting& setting, const ConvergenceConfig& config,
+                                      std::uint64_t seed) {
     capture::CaptureConfig out;
     out.pixels.width = config.width;
     out.pixels.height = config.height;
@@ -109,7 +112,8 @@ Convergence::Convergence(const scenes::Scene& scene, Truth truth, const Converge
     if (config_.interior_radius <= 0) config_.interior_radius = diagonal_of(scene) / 20;
     counted_ = counted_pixels(truth_.mean);
     if (pixels_in(counted_) == 0) counted_.assign(counted_.size(), 1);
-    interior_ = interior(scene, capture::RayCaster(scene), config.width, config.height, config_.interior_radius);
+    interior_ =
+        interior(scene, capture::RayCaster(scene), config.width, config.height, config_.interior_radius);
     for (std::size_t i = 0; i < interior_.size(); ++i) interior_[i] &= counted_[i];
     reference_rmse_ = std::sqrt(moments({&truth_.mean, 1}, truth_, counted_).reference_variance);
 }
@@ -149,7 +153,8 @@ bool Convergence::holds(const results::ConvergenceRow& row, const Setting& setti
     results::ConvergenceRow own;
     describe(own, setting);
     const auto key = [](const results::ConvergenceRow& r) {
-        return std::tie(r.ladder, r.mode, r.gather_rays, r.photons, r.k, r.radius, r.caustic_photons, r.samples);
+        return std::tie(r.ladder, r.mode, r.gather_rays, r.photons, r.k, r.radius, r.caustic_photons,
+                        r.samples);
     };
     return row.total_seconds && row.rmse && belongs(row) && key(row) == key(own);
 }
@@ -200,7 +205,8 @@ Measured Convergence::measure(const Setting& setting, const std::function<void(s
     row.variance = all.variance;
     row.bias_squared = all.bias_squared;
     row.bias_squared_stderr = all.bias_squared_stderr;
-    if (all.variance.value_or(0) > 0 && *row.total_seconds > 0) row.efficiency = 1 / (*all.variance * *row.total_seconds);
+    if (all.variance.value_or(0) > 0 && *row.total_seconds > 0)
+        row.efficiency = 1 / (*all.variance * *row.total_seconds);
     row.interior_pixels = pixels_in(interior_);
     if (*row.interior_pixels > 0) {
         const Moments inside = moments(images, truth_, interior_);
@@ -220,7 +226,9 @@ double CostModel::photon_work(const Setting& setting) const {
 double CostModel::render_work(const Setting& setting) const {
     // A gather ray and the nodes on the way down weigh about as much as 50 photons.
     return static_cast<double>(pixels_) * setting.samples *
-           ((setting.mode == capture::Visualisation::direct ? 1.0 : setting.gather_rays) * (50.0 + setting.k) + 100);
+           ((setting.mode == capture::Visualisation::direct ? 1.0 : setting.gather_rays) *
+                (50.0 + setting.k) +
+            100);
 }
 
 double CostModel::seconds(const Setting& setting) const {
@@ -236,7 +244,8 @@ void CostModel::learn(const Setting& setting, const results::ConvergenceRow& row
         std::max(0.0, elapsed / seeds_ - row.total_seconds.value_or(0)) / static_cast<double>(pixels_);
 }
 
-std::vector<Setting> run(const Convergence& convergence, const ConvergenceConfig& config, const LadderRun& ladder) {
+std::vector<Setting> run(const Convergence& convergence, const ConvergenceConfig& config,
+                         const LadderRun& ladder) {
     const Clock clock;
     CostModel model(std::uint64_t{config.width} * config.height, config.seeds);
     std::vector<Setting> left;

@@ -1,5 +1,5 @@
-// study/convergence.h -- error against run time: renders a setting with several seeds and tells seconds, errors against the
-// reference, and bias and variance apart.
+// study/convergence.h -- error against run time: renders a setting with several seeds and tells seconds,
+// errors against the reference, and bias and variance apart.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -24,10 +24,12 @@ struct ConvergenceConfig {
     double interior_radius = 0;  ///< [scene units]; 0: a twentieth of the box's diagonal.
 };
 
-capture::CaptureConfig capture_config(const Setting& setting, const ConvergenceConfig& config, std::uint64_t seed);
+capture::CaptureConfig capture_config(const Setting& setting, const ConvergenceConfig& config,
+                                      std::uint64_t seed);
 
-/// 1 for each pixel that counts for RMSE, bias and variance; 0 where the image, or a pixel beside, is brighter than 10 times its
-/// median: lights, and their images in mirrors. Their edges, sampled by few eye rays, would drown the error of all the rest.
+/// 1 for each pixel that counts for RMSE, bias and variance; 0 where the image, or a pixel beside, is
+/// brighter than 10 times its median: lights, and their images in mirrors. Their edges, sampled by few eye
+/// rays, would drown the error of all the rest.
 std::vector<std::uint8_t> counted_pixels(const capture::Image& image);
 
 Truth truth_of(const capture::Reference& reference);
@@ -82,7 +84,8 @@ private:
     double render_work(const Setting& setting) const;
     std::uint64_t pixels_;
     std::uint32_t seeds_;
-    // Guesses until the first measurement [s]: a photon, a photon looked at in a gather, the analysis of a pixel.
+    // Guesses until the first measurement [s]: a photon, a photon looked at in a gather, the analysis of a
+    // pixel.
     double photon_seconds_ = 3e-6, render_seconds_ = 5e-8, analysis_seconds_ = 2e-5;
 };
 
@@ -95,7 +98,9 @@ struct LadderRun {
     std::function<void(const Setting&, const Measured&)> measured;
 };
 
-/// In rising cost, as long as the next setting is predicted to fit into the time left. Returns those that did not.
-std::vector<Setting> run(const Convergence& convergence, const ConvergenceConfig& config, const LadderRun& ladder);
+/// In rising cost, as long as the next setting is predicted to fit into the time left. Returns those that did
+/// not.
+std::vector<Setting> run(const Convergence& convergence, const ConvergenceConfig& config,
+                         const LadderRun& ladder);
 
 }  // namespace regather::study

@@ -28,7 +28,8 @@ public:
         if (!hit || !usable(hit->triangle)) return false;
         Vec3 normal = hit->geometric_normal;
         if (dot(normal, direction) > 0) normal = -normal;
-        const Vec3 across = normalize(cross(normal, std::abs(normal.z) < 0.9f ? Vec3{0, 0, 1} : Vec3{1, 0, 0}));
+        const Vec3 across =
+            normalize(cross(normal, std::abs(normal.z) < 0.9f ? Vec3{0, 0, 1} : Vec3{1, 0, 0}));
         const Vec3 along = cross(normal, across);
         for (const float reach : {0.5f, 1.0f})
             for (int i = 0; i < 16; ++i) {
@@ -60,15 +61,16 @@ private:
 
 }  // namespace
 
-std::vector<std::uint8_t> interior(const scenes::Scene& scene, const capture::RayCaster& caster, std::uint32_t width,
-                                   std::uint32_t height, double radius) {
+std::vector<std::uint8_t> interior(const scenes::Scene& scene, const capture::RayCaster& caster,
+                                   std::uint32_t width, std::uint32_t height, double radius) {
     const capture::ViewPlane plane(scene.camera, width, height);
     const Probe probe(scene, caster, static_cast<float>(radius));
     std::vector<std::uint8_t> mask(std::size_t{width} * height);
     tbb::parallel_for(0u, height, [&](std::uint32_t y) {
         for (std::uint32_t x = 0; x < width; ++x)
             mask[std::size_t{y} * width + x] = probe.is_interior(
-                scene.camera.position, plane.direction(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+                scene.camera.position,
+                plane.direction(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
     });
     return mask;
 }
@@ -78,7 +80,8 @@ double photon_area(const scenes::Scene& scene) {
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
         if (!holds_photons(scene, t)) continue;
         const auto& corner = scene.triangles[t];
-        const Vec3 a = scene.vertices[corner[0]], b = scene.vertices[corner[1]], c = scene.vertices[corner[2]];
+        const Vec3 a = scene.vertices[corner[0]], b = scene.vertices[corner[1]],
+                   c = scene.vertices[corner[2]];
         sum += 0.5 * static_cast<double>(length(cross(b - a, c - a)));
     }
     return sum;

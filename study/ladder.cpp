@@ -13,7 +13,8 @@ namespace {
 constexpr std::uint32_t most_photons = (1u << 31) - 1;
 
 template <class Change>
-void add_steps(std::vector<Setting>& ladder, const Setting& base, std::initializer_list<double> steps, Change change) {
+void add_steps(std::vector<Setting>& ladder, const Setting& base, std::initializer_list<double> steps,
+               Change change) {
     for (const double step : steps) {
         Setting setting = base;
         change(setting, step);
@@ -46,10 +47,12 @@ std::vector<Setting> default_ladder(double diagonal, bool caustics) {
     base.ladder = "k";
     add_steps(out, base, {5, 16, 50, 160, 500}, [](Setting& s, double v) { s.k = whole(v); });
     base.ladder = "radius";
-    add_steps(out, base, {0.005, 0.01, 0.02, 0.04, 0.08}, [diagonal](Setting& s, double v) { s.radius = v * diagonal; });
+    add_steps(out, base, {0.005, 0.01, 0.02, 0.04, 0.08},
+              [diagonal](Setting& s, double v) { s.radius = v * diagonal; });
     base.ladder = "caustic-photons";
     if (caustics)
-        add_steps(out, base, {2e3, 1e4, 5e4, 25e4, 125e4}, [](Setting& s, double v) { s.caustic_photons = whole(v); });
+        add_steps(out, base, {2e3, 1e4, 5e4, 25e4, 125e4},
+                  [](Setting& s, double v) { s.caustic_photons = whole(v); });
 
     base.mode = capture::Visualisation::direct;
     base.gather_rays = 0;
@@ -58,7 +61,8 @@ std::vector<Setting> default_ladder(double diagonal, bool caustics) {
               [](Setting& s, double v) { s.photons = whole(v); });
     base.ladder = "direct-k";
     base.photons = 200'000;
-    add_steps(out, base, {10, 20, 50, 100, 200, 500, 1000, 2000}, [](Setting& s, double v) { s.k = whole(v); });
+    add_steps(out, base, {10, 20, 50, 100, 200, 500, 1000, 2000},
+              [](Setting& s, double v) { s.k = whole(v); });
     base.ladder = "direct-both";
     add_steps(out, base, {5e3, 1e4, 2e4, 5e4, 1e5, 2e5, 5e5, 1e6}, [](Setting& s, double v) {
         s.photons = whole(v);
@@ -73,15 +77,17 @@ std::vector<Setting> parse_ladder(std::string_view text, std::string_view file) 
     for (const results::LadderRow& row : results::from_csv<results::LadderRow>(text, file)) {
         ++line;
         Setting setting;
-        const auto refuse = [&](std::string_view column, const std::string& found, std::string_view expected) {
-            throw trace::DataError(
-                fmt::format("{}: row {}, column {}: found {}, expected {}", file, line - 1, column, found, expected));
+        const auto refuse = [&](std::string_view column, const std::string& found,
+                                std::string_view expected) {
+            throw trace::DataError(fmt::format("{}: row {}, column {}: found {}, expected {}", file, line - 1,
+                                               column, found, expected));
         };
-        const auto take = [&](std::string_view column, const results::Count& cell, std::uint32_t& value, std::uint64_t least,
-                              std::uint64_t most) {
+        const auto take = [&](std::string_view column, const results::Count& cell, std::uint32_t& value,
+                              std::uint64_t least, std::uint64_t most) {
             if (!cell) return;
             if (*cell < least || *cell > most)
-                refuse(column, fmt::to_string(*cell), fmt::format("a whole number from {} to {}", least, most));
+                refuse(column, fmt::to_string(*cell),
+                       fmt::format("a whole number from {} to {}", least, most));
             value = static_cast<std::uint32_t>(*cell);
         };
         if (row.ladder.empty()) refuse("ladder", "an empty cell", "a name");
@@ -97,7 +103,8 @@ std::vector<Setting> parse_ladder(std::string_view text, std::string_view file) 
         take("caustic_photons", row.caustic_photons, setting.caustic_photons, 0, most_photons);
         take("samples", row.samples, setting.samples, 1, 1u << 20);
         if (row.radius) {
-            if (*row.radius <= 0) refuse("radius", fmt::to_string(*row.radius), "a length above 0, or an empty cell");
+            if (*row.radius <= 0)
+                refuse("radius", fmt::to_string(*row.radius), "a length above 0, or an empty cell");
             setting.radius = *row.radius;
         }
         out.push_back(setting);

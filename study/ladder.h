@@ -22,13 +22,14 @@ struct Setting {
 
 std::string_view mode_name(capture::Visualisation mode);  ///< "final-gather", "direct"
 
-/// gather-rays, photons, k, radius and samples with final gathers; direct-photons (k held), direct-k (photons held) and
-/// direct-both (k with the root of the photons) without; with `caustics`, caustic-photons, too, else settings have none.
-/// `diagonal`: of the scene's box, for the radii.
+/// gather-rays, photons, k, radius and samples with final gathers; direct-photons (k held), direct-k (photons
+/// held) and direct-both (k with the root of the photons) without; with `caustics`, caustic-photons, too,
+/// else settings have none. `diagonal`: of the scene's box, for the radii.
 std::vector<Setting> default_ladder(double diagonal, bool caustics);
 
-/// A table in CSV: a header with names of Setting's fields, a line a setting; what has no column stays at its default.
-/// mode: final-gather or direct; an empty radius: none. trace::DataError names file, line and column.
+/// A table in CSV: a header with names of Setting's fields, a line a setting; what has no column stays at its
+/// default. mode: final-gather or direct; an empty radius: none. trace::DataError names file, line and
+/// column.
 std::vector<Setting> parse_ladder(std::string_view text, std::string_view file);
 
 }  // namespace regather::study

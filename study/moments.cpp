@@ -20,7 +20,8 @@ double mean_of_pairs(const std::vector<std::vector<double>>& products, std::size
 
 }  // namespace
 
-Moments moments(std::span<const capture::Image> images, const Truth& truth, std::span<const std::uint8_t> mask) {
+Moments moments(std::span<const capture::Image> images, const Truth& truth,
+                std::span<const std::uint8_t> mask) {
     const std::size_t count = images.size();
     std::vector<std::vector<double>> products(count, std::vector<double>(count));
     Moments out;
@@ -30,7 +31,8 @@ Moments moments(std::span<const capture::Image> images, const Truth& truth, std:
         if (!mask.empty() && mask[i] == 0) continue;
         for (int c = 0; c < 3; ++c) {
             for (std::size_t m = 0; m < count; ++m) {
-                difference[m] = static_cast<double>(images[m].pixels[i][c]) - static_cast<double>(truth.mean.pixels[i][c]);
+                difference[m] = static_cast<double>(images[m].pixels[i][c]) -
+                                static_cast<double>(truth.mean.pixels[i][c]);
                 for (std::size_t n = 0; n <= m; ++n) products[m][n] += difference[m] * difference[n];
             }
             if (!truth.variance.empty()) out.reference_variance += static_cast<double>(truth.variance[i][c]);
@@ -57,7 +59,8 @@ Moments moments(std::span<const capture::Image> images, const Truth& truth, std:
     }
     double squares = 0;
     for (const double value : left) squares += (value - middle) * (value - middle);
-    out.bias_squared_stderr = std::sqrt(squares * static_cast<double>(count - 1) / static_cast<double>(count));
+    out.bias_squared_stderr =
+        std::sqrt(squares * static_cast<double>(count - 1) / static_cast<double>(count));
     return out;
 }
 

@@ -1,8 +1,9 @@
-// study/moments.h -- bias and variance of a renderer apart, from several images of one setting and a reference with noise
-// of its own. With Y_m = X_m - R, the inner products <Y_m, Y_n> (means over pixels and channels) of two different images hold
-// bias^2 and the reference's variance, those of an image with itself the variance, too: their differences estimate each
-// without bias. The standard error of bias^2 comes from leaving one image out at a time (jackknife), so that noise that
-// neighbouring pixels share, as photons make it, counts as what it is.
+// study/moments.h -- bias and variance of a renderer apart, from several images of one setting and a
+// reference with noise of its own. With Y_m = X_m - R, the inner products <Y_m, Y_n> (means over pixels and
+// channels) of two different images hold bias^2 and the reference's variance, those of an image with itself
+// the variance, too: their differences estimate each without bias. The standard error of bias^2 comes from
+// leaving one image out at a time (jackknife), so that noise that neighbouring pixels share, as photons make
+// it, counts as what it is.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -24,12 +25,13 @@ struct Truth {
 struct Moments {
     double squared_error = 0;  ///< Of one image against the truth; the reference's variance is taken off.
     double reference_variance = 0;
-    std::optional<double> variance, bias_squared;   ///< From two images on.
-    std::optional<double> bias_squared_stderr;      ///< From three images on.
+    std::optional<double> variance, bias_squared;  ///< From two images on.
+    std::optional<double> bias_squared_stderr;     ///< From three images on.
 };
 
-/// Of the pixels where `mask` is not 0; an empty mask takes all. Images are as large as the truth; at least one, and at least
-/// one pixel.
-Moments moments(std::span<const capture::Image> images, const Truth& truth, std::span<const std::uint8_t> mask = {});
+/// Of the pixels where `mask` is not 0; an empty mask takes all. Images are as large as the truth; at least
+/// one, and at least one pixel.
+Moments moments(std::span<const capture::Image> images, const Truth& truth,
+                std::span<const std::uint8_t> mask = {});
 
 }  // namespace regather::study

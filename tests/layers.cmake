@@ -4,18 +4,11 @@
 cmake_minimum_required(VERSION 3.25)
 cmake_path(ABSOLUTE_PATH SOURCE_DIR NORMALIZE)
 
-set(trace_may_include trace)
-set(spatial_may_include spatial trace)
-set(cachesim_may_include cachesim trace)
-set(scenes_may_include scenes trace)
-set(results_may_include results trace)
-set(capture_may_include capture scenes spatial trace)
-set(reorder_may_include reorder spatial trace)
-set(study_may_include study capture reorder scenes spatial results trace)
-set(replay_may_include replay reorder spatial cachesim trace)
-set(layers trace spatial scenes capture reorder cachesim replay results study)
-set(cli_may_include ${layers} cli)
-list(APPEND layers cli)
+include(${SOURCE_DIR}/cmake/layers.cmake)
+set(layers ${regather_layers})
+foreach(folder IN LISTS layers)
+    set(${folder}_may_include ${folder} ${${folder}_knows})
+endforeach()
 
 # The rule that `folder` breaks by including `path`, or "".
 function(broken_rule folder path result)

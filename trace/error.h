@@ -1,4 +1,5 @@
-// trace/error.h -- what goes wrong and whose fault it is. Libraries throw; only cli/main.cpp prints and exits.
+// trace/error.h -- what goes wrong and whose fault it is. Libraries throw; only cli/main.cpp prints and
+// exits.
 #pragma once
 #include <stdexcept>
 
@@ -10,8 +11,9 @@ struct DataError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The user asked for what does not exist or makes no sense (unknown ordering, 0 ways). Exit code 2 from a command
-/// line; a file that asks for it is bad data and is reported as DataError with the file's name. One line.
+/// The user asked for what does not exist or makes no sense (unknown ordering, 0 ways). Exit code 2 from a
+/// command line; a file that asks for it is bad data and is reported as DataError with the file's name. One
+/// line.
 struct UsageError : std::invalid_argument {
     using std::invalid_argument::invalid_argument;
 };

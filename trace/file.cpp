@@ -35,7 +35,8 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
         const int reason = errno;
         if (file >= 0) ::close(file);
         ::unlink(partial.c_str());
-        throw std::runtime_error(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(reason)));
+        throw std::runtime_error(
+            fmt::format("{}: cannot be written: {}", path.string(), std::strerror(reason)));
     };
     if (path.has_parent_path()) {
         std::error_code error;

@@ -1,5 +1,6 @@
-// trace/folder.h -- a trace: a folder with one .npy file per column and a trace.json that is written last, by an atomic
-// rename. A folder without trace.json is an unfinished capture. Every column, with type and unit: docs/trace_format.md.
+// trace/folder.h -- a trace: a folder with one .npy file per column and a trace.json that is written last, by
+// an atomic rename. A folder without trace.json is an unfinished capture. Every column, with type and unit:
+// docs/trace_format.md.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -36,8 +37,8 @@ struct LeftOut {
 struct TraceInfo {
     std::string scene;
     std::uint32_t image_width = 0, image_height = 0;  ///< [pixels]
-    std::string map = "global";          ///< Which photon map: "global" or "caustic".
-    std::optional<std::uint32_t> frame;  ///< Of the scene's camera path.
+    std::string map = "global";                       ///< Which photon map: "global" or "caustic".
+    std::optional<std::uint32_t> frame;               ///< Of the scene's camera path.
     std::uint32_t k = 0;
     std::uint64_t seed = 0;
     std::string structure = "left-balanced-kd";
@@ -52,8 +53,8 @@ struct TraceInfo {
 /// Writes a trace. Until finish() the folder is not a trace for any reader, whatever happens.
 class TraceWriter {
 public:
-    /// Creates `folder` if needed. Throws UsageError when it holds a finished trace and `force` is false, or other files
-    /// than a trace's; a finished trace that is overwritten loses its trace.json first.
+    /// Creates `folder` if needed. Throws UsageError when it holds a finished trace and `force` is false, or
+    /// other files than a trace's; a finished trace that is overwritten loses its trace.json first.
     TraceWriter(std::filesystem::path folder, bool force);
 
     ColumnWriter& column(std::string_view name);  ///< Created at the first call.
@@ -64,8 +65,8 @@ private:
     std::map<std::string, ColumnWriter, std::less<>> writers_;
 };
 
-/// Opens a finished trace. Throws DataError that names file, field, found and expected when it is not one, or is of
-/// another schema version, or a required column is not listed, or a listed one is missing or has
+/// Opens a finished trace. Throws DataError that names file, field, found and expected when it is not one, or
+/// is of another schema version, or a required column is not listed, or a listed one is missing or has
 /// another type or row count than trace.json says.
 class TraceReader {
 public:
@@ -76,7 +77,8 @@ public:
     bool has(std::string_view name) const { return digests_.contains(std::string(name)); }
     std::map<std::string, ColumnDigest> const& digests() const { return digests_; }
 
-    /// The rows of a column; its checksum is verified the first time. DataError when it was left out or altered.
+    /// The rows of a column; its checksum is verified the first time. DataError when it was left out or
+    /// altered.
     template <class T>
     std::span<const T> column(std::string_view name) {
         return open(name, column_type<T>()).template rows<T>();

@@ -40,7 +40,8 @@ std::string header_block(const ColumnType& type, std::uint64_t rows) {
     return block;
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& found, const std::string& expected) {
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& found,
+                         const std::string& expected) {
     throw DataError(fmt::format("{}: found {}, expected {}", path.string(), found, expected));
 }
 
@@ -97,8 +98,9 @@ const ColumnType& column_type<Vec3>() {
 template <>
 const ColumnType& column_type<Photon>() {
     static const ColumnType type{
-        "[('position', '<f4', (3,)), ('power', '|u1', (4,)), ('theta', '|u1'), ('phi', '|u1'), ('flags', '<u2')]", "",
-        20, "20-byte photon record"};
+        "[('position', '<f4', (3,)), ('power', '|u1', (4,)), ('theta', '|u1'), ('phi', '|u1'), ('flags', "
+        "'<u2')]",
+        "", 20, "20-byte photon record"};
     return type;
 }
 
@@ -118,7 +120,8 @@ struct ColumnWriter::State {
     }
     void write(const void* data, std::size_t size) {
         if (std::fwrite(data, 1, size, file) != size)
-            throw std::runtime_error(fmt::format("{}: cannot write: {}", path.string(), std::strerror(errno)));
+            throw std::runtime_error(
+                fmt::format("{}: cannot write: {}", path.string(), std::strerror(errno)));
     }
 };
 
@@ -126,7 +129,8 @@ ColumnWriter::ColumnWriter(std::filesystem::path path, const ColumnType& type)
     : state_(std::make_unique<State>(std::move(path), type)) {
     state_->file = std::fopen(state_->path.c_str(), "wb");
     if (!state_->file)
-        throw std::runtime_error(fmt::format("{}: cannot create: {}", state_->path.string(), std::strerror(errno)));
+        throw std::runtime_error(
+            fmt::format("{}: cannot create: {}", state_->path.string(), std::strerror(errno)));
     std::setvbuf(state_->file, nullptr, _IOFBF, 1 << 20);
     state_->hash = XXH3_createState();
     XXH3_64bits_reset(state_->hash);
@@ -155,7 +159,8 @@ ColumnDigest ColumnWriter::finish() {
     return digest;
 }
 
-MappedColumn::MappedColumn(const std::filesystem::path& path, const ColumnType& type) : row_bytes_(type.row_bytes) {
+MappedColumn::MappedColumn(const std::filesystem::path& path, const ColumnType& type)
+    : row_bytes_(type.row_bytes) {
     const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (fd < 0) refuse(path, std::strerror(errno), fmt::format("a .npy column of {}", type.readable));
     struct stat info {};
@@ -177,7 +182,8 @@ MappedColumn::MappedColumn(const std::filesystem::path& path, const ColumnType& 
         if (major < 1 || major > 3) refuse(path, fmt::format(".npy version {}", major), "version 1 to 3");
         const std::size_t prefix = major == 1 ? 10 : 12;
         std::size_t text_bytes = 0;
-        for (std::size_t i = prefix; i-- > 8;) text_bytes = text_bytes << 8 | static_cast<unsigned char>(bytes[i]);
+        for (std::size_t i = prefix; i-- > 8;)
+            text_bytes = text_bytes << 8 | static_cast<unsigned char>(bytes[i]);
         if (prefix + text_bytes > map_bytes_) refuse(path, "a header that ends early", "a whole .npy header");
         const std::string_view header(bytes + prefix, text_bytes);
 
@@ -186,8 +192,10 @@ MappedColumn::MappedColumn(const std::filesystem::path& path, const ColumnType& 
             std::string foreign = without_blanks(type.descr);
             for (char& c : foreign)
                 if (c == '<') c = '>';
-            refuse(path, descr == foreign ? fmt::format("big-endian type {}", descr) : fmt::format("type {}", descr),
-                   fmt::format("{} ({}, little-endian)", type.descr, type.readable));
+            refuse(
+                path,
+                descr == foreign ? fmt::format("big-endian type {}", descr) : fmt::format("type {}", descr),
+                fmt::format("{} ({}, little-endian)", type.descr, type.readable));
         }
         if (value_of(header, "fortran_order") != "False") refuse(path, "Fortran order", "C order");
         const std::string shape = value_of(header, "shape");
@@ -196,10 +204,12 @@ MappedColumn::MappedColumn(const std::filesystem::path& path, const ColumnType& 
         const auto [end, error] = shape.empty() ? std::from_chars_result{nullptr, std::errc::invalid_argument}
                                                 : std::from_chars(first, last, rows_);
         const std::string tail = error == std::errc{} ? std::string(end, last) : "";
-        const std::string expected_tail = type.inner_shape.empty() ? ",)" : fmt::format(",{})", type.inner_shape);
+        const std::string expected_tail =
+            type.inner_shape.empty() ? ",)" : fmt::format(",{})", type.inner_shape);
         if (error != std::errc{} || tail != expected_tail)
             refuse(path, fmt::format("shape {}", shape),
-                   type.inner_shape.empty() ? "shape (rows,)" : fmt::format("shape (rows, {})", type.inner_shape));
+                   type.inner_shape.empty() ? "shape (rows,)"
+                                            : fmt::format("shape (rows, {})", type.inner_shape));
         const std::size_t body = map_bytes_ - prefix - text_bytes;
         if (rows_ > body / type.row_bytes || rows_ * type.row_bytes != body)
             refuse(path, fmt::format("{} bytes of rows", body),
@@ -214,7 +224,9 @@ MappedColumn::MappedColumn(const std::filesystem::path& path, const ColumnType& 
 MappedColumn::~MappedColumn() {
     if (map_) ::munmap(map_, map_bytes_);
 }
-MappedColumn::MappedColumn(MappedColumn&& other) noexcept { *this = std::move(other); }
+MappedColumn::MappedColumn(MappedColumn&& other) noexcept {
+    *this = std::move(other);
+}
 MappedColumn& MappedColumn::operator=(MappedColumn&& other) noexcept {
     std::swap(map_, other.map_);
     std::swap(map_bytes_, other.map_bytes_);
@@ -224,8 +236,12 @@ MappedColumn& MappedColumn::operator=(MappedColumn&& other) noexcept {
     return *this;
 }
 
-std::uint64_t MappedColumn::checksum() const { return XXH3_64bits(data_, rows_ * row_bytes_); }
+std::uint64_t MappedColumn::checksum() const {
+    return XXH3_64bits(data_, rows_ * row_bytes_);
+}
 
-void MappedColumn::expect_random_access() const { ::madvise(map_, map_bytes_, MADV_RANDOM); }
+void MappedColumn::expect_random_access() const {
+    ::madvise(map_, map_bytes_, MADV_RANDOM);
+}
 
 }  // namespace regather::trace

@@ -1,5 +1,6 @@
-// trace/npy.h -- columns as NumPy .npy files (format 1.0, little-endian, C order): written as a stream, read in place.
-// Format: numpy.lib.format, NEP 1. Which columns a trace has: trace/folder.h and docs/trace_format.md.
+// trace/npy.h -- columns as NumPy .npy files (format 1.0, little-endian, C order): written as a stream, read
+// in place. Format: numpy.lib.format, NEP 1. Which columns a trace has: trace/folder.h and
+// docs/trace_format.md.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -21,7 +22,7 @@ struct ColumnType {
     std::string descr;        ///< As in the .npy header: "'<f4'", or a list of fields.
     std::string inner_shape;  ///< "" for one value a row, "3" for three.
     std::size_t row_bytes;
-    std::string readable;     ///< For people: "float32 x 3".
+    std::string readable;  ///< For people: "float32 x 3".
 };
 
 template <class T>
@@ -35,8 +36,8 @@ struct ColumnDigest {
 };
 
 /// Appends rows; the header is completed by finish(). A file that was never finished has a row count of 0 and
-/// trailing bytes, which MappedColumn refuses. Throws std::runtime_error when the disk is full or the path cannot be
-/// written.
+/// trailing bytes, which MappedColumn refuses. Throws std::runtime_error when the disk is full or the path
+/// cannot be written.
 class ColumnWriter {
 public:
     ColumnWriter(std::filesystem::path path, const ColumnType& type);
@@ -44,7 +45,9 @@ public:
     ColumnWriter(ColumnWriter&&) noexcept;
 
     template <class T>
-    void append(std::span<const T> rows) { append_bytes(std::as_bytes(rows)); }
+    void append(std::span<const T> rows) {
+        append_bytes(std::as_bytes(rows));
+    }
     void append_bytes(std::span<const std::byte> bytes);
     ColumnDigest finish();
 
@@ -53,8 +56,8 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// Maps a finished column read-only. Throws DataError (path, found, expected) for a missing file, no or a foreign
-/// header, a wrong type or shape, foreign byte order, Fortran order, and bytes missing or left over.
+/// Maps a finished column read-only. Throws DataError (path, found, expected) for a missing file, no or a
+/// foreign header, a wrong type or shape, foreign byte order, Fortran order, and bytes missing or left over.
 class MappedColumn {
 public:
     MappedColumn(const std::filesystem::path& path, const ColumnType& type);
@@ -65,7 +68,9 @@ public:
     std::uint64_t size() const { return rows_; }
     std::uint64_t checksum() const;  ///< XXH3-64 of the rows' bytes; reads them all.
     template <class T>
-    std::span<const T> rows() const { return {reinterpret_cast<const T*>(data_), rows_}; }
+    std::span<const T> rows() const {
+        return {reinterpret_cast<const T*>(data_), rows_};
+    }
     /// Tells the kernel that the rows are read in no order (madvise).
     void expect_random_access() const;
 

@@ -69,7 +69,8 @@ namespace {
 constexpr int octahedral_steps = 63;  // On either side of zero: 127 values of a coordinate, and 0 for none
 
 std::uint16_t octahedral(float coordinate) {
-    return static_cast<std::uint16_t>(octahedral_steps + 1 + std::lround(std::clamp(coordinate, -1.0f, 1.0f) * octahedral_steps));
+    return static_cast<std::uint16_t>(octahedral_steps + 1 +
+                                      std::lround(std::clamp(coordinate, -1.0f, 1.0f) * octahedral_steps));
 }
 
 }  // namespace
@@ -99,8 +100,8 @@ Vec3 decode_normal(const Photon& photon) {
                     x = folded;
                 }
                 const double size = std::sqrt(x * x + y * y + z * z);
-                normals[static_cast<std::size_t>(v * 128 + u)] = {static_cast<float>(x / size), static_cast<float>(y / size),
-                                                                  static_cast<float>(z / size)};
+                normals[static_cast<std::size_t>(v * 128 + u)] = {
+                    static_cast<float>(x / size), static_cast<float>(y / size), static_cast<float>(z / size)};
             }
         return normals;
     }();

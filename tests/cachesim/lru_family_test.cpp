@@ -19,7 +19,8 @@ using testing::ElementsAre;
 
 constexpr std::uint32_t line_bytes = 64;
 
-/// Misses by definition, and Hill's classes: each cache simulated for itself, the fully associative one beside it.
+/// Misses by definition, and Hill's classes: each cache simulated for itself, the fully associative one
+/// beside it.
 struct BruteForce {
     std::uint64_t misses = 0, conflicts = 0;
 };
@@ -32,7 +33,8 @@ BruteForce brute_force(std::span<const Line> lines, std::uint64_t sets, std::uin
     for (std::size_t i = 0; i < lines.size(); ++i) {
         cache.access(lines[i], trace::Region::other, Access::read);
         full.access(lines[i], trace::Region::other, Access::read);
-        const bool missed = cache.stats[2].misses != cache_misses, full_missed = full.stats[2].misses != full_misses;
+        const bool missed = cache.stats[2].misses != cache_misses,
+                   full_missed = full.stats[2].misses != full_misses;
         cache_misses = cache.stats[2].misses;
         full_misses = full.stats[2].misses;
         if (!counted.empty() && !counted[i]) continue;
@@ -42,10 +44,12 @@ BruteForce brute_force(std::span<const Line> lines, std::uint64_t sets, std::uin
     return result;
 }
 
-const std::vector<FamilyLevel> levels{{1, 16}, {2, 32}, {4, 3}, {8, 8}, {16, 1}, {64, 4}, {256, 2}, {1024, 4}};
+const std::vector<FamilyLevel> levels{{1, 16}, {2, 32}, {4, 3},   {8, 8},
+                                      {16, 1}, {64, 4}, {256, 2}, {1024, 4}};
 
 std::vector<Line> some_lines(std::uint64_t universe, std::uint64_t base) {
-    const auto numbers = *rc::gen::container<std::vector<std::uint32_t>>(rc::gen::inRange<std::uint32_t>(0, 1u << 30));
+    const auto numbers =
+        *rc::gen::container<std::vector<std::uint32_t>>(rc::gen::inRange<std::uint32_t>(0, 1u << 30));
     std::vector<Line> lines;
     for (const std::uint32_t number : numbers) lines.push_back(Line{base + number % universe});
     return lines;
@@ -92,14 +96,15 @@ TEST(LruFamily, DepthsOfSetsDrawnByHand) {
     EXPECT_THAT(counts.by_distance, ElementsAre(0, 0, 2, 1));
     // 1 way: only the last access hits. 2 ways: the 0 at depth 1 too. 3 ways: the 2 as well.
     EXPECT_THAT(counts.levels[0].misses, ElementsAre(6, 5, 4, 4));
-    // A conflict misses its set but not a full cache of 2 w lines: 2 lines would miss all; 4 lines keep all three, of which
-    // two ways lose the 2; from 6 lines on the sets keep all.
+    // A conflict misses its set but not a full cache of 2 w lines: 2 lines would miss all; 4 lines keep all
+    // three, of which two ways lose the 2; from 6 lines on the sets keep all.
     EXPECT_THAT(counts.levels[0].conflicts, ElementsAre(0, 1, 0, 0));
 }
 
 /// Walks over few lines, so that they meet again and again.
 std::vector<std::vector<Line>> some_walks() {
-    const auto numbers = *rc::gen::container<std::vector<std::vector<std::uint8_t>>>(rc::gen::arbitrary<std::vector<std::uint8_t>>());
+    const auto numbers = *rc::gen::container<std::vector<std::vector<std::uint8_t>>>(
+        rc::gen::arbitrary<std::vector<std::uint8_t>>());
     std::vector<std::vector<Line>> walks;
     for (const auto& walk : numbers) {
         walks.emplace_back();
@@ -129,7 +134,8 @@ TEST(LruFamily, FirstTouchesAndRevisitsOfWalksMakeUpTheStream) {
         std::vector<std::size_t> order(walks.size());
         for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
         const auto shift = *rc::gen::inRange<std::size_t>(0, 100);
-        std::rotate(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(order.empty() ? 0 : shift % order.size()),
+        std::rotate(order.begin(),
+                    order.begin() + static_cast<std::ptrdiff_t>(order.empty() ? 0 : shift % order.size()),
                     order.end());
 
         LruFamily first({.levels = levels});
@@ -146,11 +152,13 @@ TEST(LruFamily, FirstTouchesAndRevisitsOfWalksMakeUpTheStream) {
 }
 
 TEST(LruFamily, NumbersItsStampsAnewWithoutATrace) {
-    // 2^16 stamps are the fewest: 200,000 accesses to 20,000 lines use them up several times, and 50,000 lines make more.
+    // 2^16 stamps are the fewest: 200,000 accesses to 20,000 lines use them up several times, and 50,000
+    // lines make more.
     Scatter scatter(7);
     std::vector<Line> lines;
     for (int i = 0; i < 200'000; ++i) lines.push_back(Line{scatter.below(i < 120'000 ? 20'000 : 50'000)});
-    LruFamily few({.levels = levels, .stamps = 1}), many({.levels = levels, .stamps = std::uint64_t{1} << 20});
+    LruFamily few({.levels = levels, .stamps = 1}),
+        many({.levels = levels, .stamps = std::uint64_t{1} << 20});
     for (std::size_t i = 0; i < lines.size(); i += 1000) few.access(std::span(lines).subspan(i, 1000));
     many.access(lines);
     EXPECT_EQ(few.counts(), many.counts());
@@ -195,7 +203,8 @@ TEST(LruFamily, CountsHold64BitsAndAddUp) {
             EXPECT_EQ(sum.misses(level.sets, ways), once.misses(level.sets, ways) * times);
             EXPECT_EQ(sum.conflicts(level.sets, ways), once.conflicts(level.sets, ways) * times);
         }
-    for (const std::uint64_t size : {1, 20, 300, 500}) EXPECT_EQ(sum.full_misses(size), once.full_misses(size) * times);
+    for (const std::uint64_t size : {1, 20, 300, 500})
+        EXPECT_EQ(sum.full_misses(size), once.full_misses(size) * times);
 }
 
 TEST(LruFamily, CountsOfTwoFamiliesDoNotAddUp) {
@@ -210,7 +219,8 @@ TEST(LruFamily, CountsOfTwoFamiliesDoNotAddUp) {
 std::vector<Line> skewed_lines(std::uint64_t base, std::size_t count = 20'000) {
     Scatter scatter(21);
     std::vector<Line> lines(count);
-    for (Line& line : lines) line = Line{base + scatter.below(1 + scatter.below(3000)) * (1 + 255 * scatter.below(2))};
+    for (Line& line : lines)
+        line = Line{base + scatter.below(1 + scatter.below(3000)) * (1 + 255 * scatter.below(2))};
     return lines;
 }
 
@@ -275,7 +285,8 @@ TEST(LruFamily, MissesAreTheSameWithoutDistancesOrConflicts) {
 TEST(LruFamily, WhereLinesLieDoesNotMatterAsLongAsTheirSetsAreTheSame) {
     LruFamily low({.levels = levels});
     low.access(skewed_lines(0));
-    for (const std::uint64_t base : {std::uint64_t{1} << 24, std::uint64_t{1} << 32, std::uint64_t{1} << 63}) {
+    for (const std::uint64_t base :
+         {std::uint64_t{1} << 24, std::uint64_t{1} << 32, std::uint64_t{1} << 63}) {
         LruFamily high({.levels = levels});
         high.access(skewed_lines(base));
         EXPECT_EQ(high.counts(), low.counts()) << base;
@@ -283,13 +294,16 @@ TEST(LruFamily, WhereLinesLieDoesNotMatterAsLongAsTheirSetsAreTheSame) {
 }
 
 TEST(LruFamily, TheLastLineIsALineLikeAnyOther) {
-    const std::vector<Line> lines{Line{~std::uint64_t{0}}, Line{~std::uint64_t{0}}, Line{~std::uint64_t{0} - 256}};
+    const std::vector<Line> lines{Line{~std::uint64_t{0}}, Line{~std::uint64_t{0}},
+                                  Line{~std::uint64_t{0} - 256}};
     LruFamily family({.levels = levels});
     family.access(lines);
-    for (const FamilyLevel& level : levels) EXPECT_EQ(family.counts().misses(level.sets, level.ways), 2u) << level.sets;
+    for (const FamilyLevel& level : levels)
+        EXPECT_EQ(family.counts().misses(level.sets, level.ways), 2u) << level.sets;
 }
 
-/// Few stamps, so that they are used up again and again between walks whose newest lines were left out of a filter.
+/// Few stamps, so that they are used up again and again between walks whose newest lines were left out of a
+/// filter.
 TEST(LruFamily, WalksOutlastTheirStamps) {
     Scatter scatter(31);
     LruFamily few({.levels = levels, .stamps = 1}), bare({.levels = levels, .distances = false, .stamps = 1}),
@@ -312,7 +326,8 @@ TEST(LruFamily, WalksOutlastTheirStamps) {
 }
 
 TEST(LruFamily, MoreLinesThanStampsInAnEndlessCircle) {
-    // 100,000 lines round and round: the next one is always the oldest, so all are missed or, with one line more, none.
+    // 100,000 lines round and round: the next one is always the oldest, so all are missed or, with one line
+    // more, none.
     constexpr std::uint64_t number = 100'000, rounds = 4;
     for (const std::uint64_t base : {std::uint64_t{0}, std::uint64_t{1} << 40}) {
         LruFamily family({.levels = {{1, 32}, {1024, 32}, {std::uint64_t{1} << 17, 1}}, .stamps = 1});

@@ -226,8 +226,9 @@ TEST(PolicySweep, LruCountsAreThoseOfEachLruCacheByItself) {
 }
 
 TEST(PolicySweep, LruCountsAreThoseOfListsByteByByte) {
-    const CacheConfig geometries[] = {{16 * 1024, 64, 8}, {4 * 1024, 32, 1},  {16 * 1024, 64, fully_associative},
-                                      {1024, 1, 4},       {12 * 1024, 64, 3}, {16 * 1024, 64, 8}};
+    const CacheConfig geometries[] = {
+        {16 * 1024, 64, 8}, {4 * 1024, 32, 1},  {16 * 1024, 64, fully_associative},
+        {1024, 1, 4},       {12 * 1024, 64, 3}, {16 * 1024, 64, 8}};
     std::vector<PolicyConfig> configs;
     for (const CacheConfig& geometry : geometries) configs.push_back({geometry});
     for (const bool write_some : {false, true}) {
@@ -260,7 +261,8 @@ TEST(PolicySweep, ALongAccessTouchesEveryLine) {
     const PolicyConfig configs[] = {{{1024, 1, 1}}, {{1024, 128, 1}}};
     const auto rows = rows_of(configs, std::vector{ByteAccess{64, 1'000'000, Access::write}}, {false, 0});
     EXPECT_EQ(rows[0].stats, (PolicyStats{1'000'000, 1'000'000, 1'000'000, 1'000'000, 0, 0}));
-    EXPECT_EQ(rows[1].stats, (PolicyStats{7813, 7813, 7813, 7813, 0, 0}));  // bytes 64 to 1,000,063: lines 0 to 7812
+    EXPECT_EQ(rows[1].stats,
+              (PolicyStats{7813, 7813, 7813, 7813, 0, 0}));  // bytes 64 to 1,000,063: lines 0 to 7812
 }
 
 TEST(PolicySweep, AnImpossibleGeometryIsRefused) {

@@ -1,4 +1,5 @@
-// The photon mapper against our own path tracer, which shares scene, materials and lights with it and nothing of the estimate.
+// The photon mapper against our own path tracer, which shares scene, materials and lights with it and nothing
+// of the estimate.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,7 +41,8 @@ Mean by_paths(const scenes::Scene& scene, std::uint32_t edge, std::uint32_t samp
     const LightSampler lights(scene);
     std::vector<double> means;
     for (int seed = 1; seed <= seeds; ++seed) {
-        const PathTracer tracer(scene, caster, lights, {.width = edge, .height = edge, .seed = static_cast<std::uint64_t>(seed)});
+        const PathTracer tracer(scene, caster, lights,
+                                {.width = edge, .height = edge, .seed = static_cast<std::uint64_t>(seed)});
         std::vector<Moments> pixels(std::size_t{edge} * edge);
         tracer.add(pixels, 0, samples);
         double sum = 0;
@@ -53,15 +55,16 @@ Mean by_paths(const scenes::Scene& scene, std::uint32_t edge, std::uint32_t samp
 
 CaptureConfig small_radius(std::uint32_t edge) {
     CaptureConfig config;
-    config.pixels = {.width = edge, .height = edge, .gather_rays = 32, .shadow_rays = 8, .max_specular = 32, .samples = 4};
+    config.pixels = {
+        .width = edge, .height = edge, .gather_rays = 32, .shadow_rays = 8, .max_specular = 32, .samples = 4};
     config.photon.photons = 100'000;
     config.gather = {.k = 1000, .radius = 0.02f};
     config.caustic = {.photons = 100'000, .k = 10'000, .radius = 0.03f, .filter = Filter::none};
     return config;
 }
 
-/// Student's t, 8 seeds each: 4.5 combined standard errors are exceeded once in a few thousand times by chance; `bias` is what a
-/// gather of that radius may lose at edges and corners, as a share of the mean.
+/// Student's t, 8 seeds each: 4.5 combined standard errors are exceeded once in a few thousand times by
+/// chance; `bias` is what a gather of that radius may lose at edges and corners, as a share of the mean.
 void expect_equal(const Mean& photons, const Mean& paths, double bias) {
     const double interval = 4.5 * std::hypot(photons.error, paths.error);
     EXPECT_LT(interval, 0.05 * paths.value) << "the interval is too wide to say anything";

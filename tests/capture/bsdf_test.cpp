@@ -30,7 +30,8 @@ double albedo(const Material& material, double angle) {
         for (int j = 0; j < columns; ++j) {
             const double phi = (j + 0.5) * (2 * pi / columns);
             const Vec3 light{static_cast<float>(std::sin(theta) * std::cos(phi)),
-                             static_cast<float>(std::sin(theta) * std::sin(phi)), static_cast<float>(std::cos(theta))};
+                             static_cast<float>(std::sin(theta) * std::sin(phi)),
+                             static_cast<float>(std::cos(theta))};
             sum += brdf(material, {0, 0, 1}, light, viewer).x * std::cos(theta) * std::sin(theta);
         }
     }
@@ -46,15 +47,17 @@ TEST(Bsdf, LambertReflectsItsAlbedo) {
 TEST(Bsdf, BlinnPhongIsNormalisedAtNormalIncidenceAndNeverReflectsMore) {
     for (const float exponent : {1.0f, 10.0f, 100.0f, 1000.0f}) {
         EXPECT_NEAR(albedo(glossy(0, 0.6f, exponent), 0), 0.6, 2e-3) << exponent;
-        for (const double angle : {0.5, 1.0, 1.4}) EXPECT_LE(albedo(glossy(0, 0.6f, exponent), angle), 0.602) << exponent;
+        for (const double angle : {0.5, 1.0, 1.4})
+            EXPECT_LE(albedo(glossy(0, 0.6f, exponent), angle), 0.602) << exponent;
     }
 }
 
 TEST(Bsdf, FresnelHasItsTextbookValues) {
-    EXPECT_NEAR(fresnel(1, 1.5f), 0.04, 1e-6);                               // ((1.5 - 1) / (1.5 + 1))^2
+    EXPECT_NEAR(fresnel(1, 1.5f), 0.04, 1e-6);  // ((1.5 - 1) / (1.5 + 1))^2
     EXPECT_NEAR(fresnel(1, 1 / 1.5f), 0.04, 1e-6);
-    EXPECT_NEAR(fresnel(std::cos(std::atan(1.5f)), 1.5f), 0.5 * std::pow((2.25 - 1) / (2.25 + 1), 2), 1e-6);  // Brewster
-    EXPECT_EQ(fresnel(0.5f, 1 / 1.5f), 1);                                   // 60 degrees inside glass: critical is 41.8
+    EXPECT_NEAR(fresnel(std::cos(std::atan(1.5f)), 1.5f), 0.5 * std::pow((2.25 - 1) / (2.25 + 1), 2),
+                1e-6);                      // Brewster
+    EXPECT_EQ(fresnel(0.5f, 1 / 1.5f), 1);  // 60 degrees inside glass: critical is 41.8
     EXPECT_NEAR(fresnel(1e-4f, 1.5f), 1, 1e-3);
 }
 
@@ -110,12 +113,12 @@ TEST(Bsdf, CosineSamplesHaveTheMomentsOfTheCosine) {
         z += d.z;
         z2 += d.z * d.z;
     }
-    EXPECT_NEAR(z / samples, 2.0 / 3, 0.004);   // E[cos] = 2/3
-    EXPECT_NEAR(z2 / samples, 0.5, 0.004);      // E[cos^2] = 1/2
+    EXPECT_NEAR(z / samples, 2.0 / 3, 0.004);  // E[cos] = 2/3
+    EXPECT_NEAR(z2 / samples, 0.5, 0.004);     // E[cos^2] = 1/2
 }
 
-/// The density of sample_direction over the hemisphere, by a rule that is fine around the lobe's peak; and the share of samples
-/// that find a direction.
+/// The density of sample_direction over the hemisphere, by a rule that is fine around the lobe's peak; and
+/// the share of samples that find a direction.
 TEST(Bsdf, TheDensityOfDirectionsIntegratesToTheChanceOfFindingOne) {
     for (const double angle : {0.0, 0.5, 1.2, 1.5533})  // to 89 degrees
         for (const float exponent : {1.0f, 20.0f, 2000.0f}) {
@@ -125,16 +128,19 @@ TEST(Bsdf, TheDensityOfDirectionsIntegratesToTheChanceOfFindingOne) {
             constexpr int rows = 400, columns = 200;
             double sum = 0;
             for (int i = 0; i < rows; ++i) {
-                const double t = (i + 0.5) / rows, theta = pi / 2 * t * t * t, d_theta = pi / 2 * 3 * t * t / rows;
+                const double t = (i + 0.5) / rows, theta = pi / 2 * t * t * t,
+                             d_theta = pi / 2 * 3 * t * t / rows;
                 for (int j = 0; j < columns; ++j) {
                     const double phi = (j + 0.5) * (2 * pi / columns);
-                    const double h[3] = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+                    const double h[3] = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                                         std::cos(theta)};
                     const double along = h[0] * incoming.x + h[2] * incoming.z;
                     if (along <= 0) continue;
-                    const Vec3 out{static_cast<float>(2 * along * h[0] - incoming.x), static_cast<float>(2 * along * h[1]),
+                    const Vec3 out{static_cast<float>(2 * along * h[0] - incoming.x),
+                                   static_cast<float>(2 * along * h[1]),
                                    static_cast<float>(2 * along * h[2] - incoming.z)};
-                    sum += scatter_pdf(material, {0, 0, 1}, incoming, out) * 4 * along * std::sin(theta) * d_theta *
-                           (2 * pi / columns);
+                    sum += scatter_pdf(material, {0, 0, 1}, incoming, out) * 4 * along * std::sin(theta) *
+                           d_theta * (2 * pi / columns);
                 }
             }
             constexpr int samples = 40000;
@@ -146,12 +152,14 @@ TEST(Bsdf, TheDensityOfDirectionsIntegratesToTheChanceOfFindingOne) {
                 Vec3 direction;
                 found += sample_direction(material, {0, 0, 1}, incoming, choice, u, v, direction);
             }
-            const double share = static_cast<double>(found) / samples, error = std::sqrt(share * (1 - share) / samples);
+            const double share = static_cast<double>(found) / samples,
+                         error = std::sqrt(share * (1 - share) / samples);
             EXPECT_NEAR(sum, share, 4 * error + 2e-3) << angle << " " << exponent;
         }
 }
 
-/// E[g(direction) / pdf] is the integral of g: here of f cos, the albedo, where every sample is a ratio of densities.
+/// E[g(direction) / pdf] is the integral of g: here of f cos, the albedo, where every sample is a ratio of
+/// densities.
 TEST(Bsdf, DirectionsAndTheirDensityGiveTheAlbedo) {
     for (const float exponent : {2.0f, 50.0f, 500.0f}) {
         const Material material = glossy(0.3f, 0.5f, exponent);
@@ -164,8 +172,8 @@ TEST(Bsdf, DirectionsAndTheirDensityGiveTheAlbedo) {
             const float u = sampler.uniform(), v = sampler.uniform();
             Vec3 direction;
             if (!sample_direction(material, {0, 0, 1}, incoming, choice, u, v, direction)) continue;
-            const double weight = static_cast<double>(brdf(material, {0, 0, 1}, direction, incoming).x) * direction.z /
-                                  scatter_pdf(material, {0, 0, 1}, incoming, direction);
+            const double weight = static_cast<double>(brdf(material, {0, 0, 1}, direction, incoming).x) *
+                                  direction.z / scatter_pdf(material, {0, 0, 1}, incoming, direction);
             EXPECT_LT(weight, 4.4);
             sum += weight;
             squares += weight * weight;
@@ -175,7 +183,8 @@ TEST(Bsdf, DirectionsAndTheirDensityGiveTheAlbedo) {
     }
 }
 
-/// Of a lobe of exponent 1e6 the half vector's sine^2 has mean 2 / (e + 3): its distribution survives the rounding of floats.
+/// Of a lobe of exponent 1e6 the half vector's sine^2 has mean 2 / (e + 3): its distribution survives the
+/// rounding of floats.
 TEST(Bsdf, ANarrowLobeKeepsItsShape) {
     for (const float exponent : {1e4f, 1e6f}) {
         const Material material = glossy(0, 0.9f, exponent);
@@ -189,22 +198,29 @@ TEST(Bsdf, ANarrowLobeKeepsItsShape) {
             Vec3 out;
             ASSERT_TRUE(sample_direction(material, normal, incoming, choice, u, v, out));
             ASSERT_NEAR(length(out), 1, 1e-6);
-            const double x = static_cast<double>(incoming.x) + out.x, y = out.y, z = static_cast<double>(incoming.z) + out.z;
+            const double x = static_cast<double>(incoming.x) + out.x, y = out.y,
+                         z = static_cast<double>(incoming.z) + out.z;
             sine2 += (x * x + y * y) / (x * x + y * y + z * z);
-            weight += static_cast<double>(brdf(material, normal, out, incoming).x) * out.z / scatter_pdf(material, normal, incoming, out);
+            weight += static_cast<double>(brdf(material, normal, out, incoming).x) * out.z /
+                      scatter_pdf(material, normal, incoming, out);
         }
-        EXPECT_NEAR(sine2 / samples * (exponent + 3) / 2, 1, 4 / std::sqrt(samples));  // about exponential: deviation = mean
-        EXPECT_NEAR(weight / samples, 0.9 * std::pow(std::cos(0.7), 2), 0.02);  // norm and Jacobian: 4 (in.h) cos 2 pi / (e + 1) norm
+        EXPECT_NEAR(sine2 / samples * (exponent + 3) / 2, 1,
+                    4 / std::sqrt(samples));  // about exponential: deviation = mean
+        EXPECT_NEAR(weight / samples, 0.9 * std::pow(std::cos(0.7), 2),
+                    0.02);  // norm and Jacobian: 4 (in.h) cos 2 pi / (e + 1) norm
     }
 }
 
-/// n = z and the viewer overhead: the half vector's angle is half of the light's, theta. (n.h)^e = cos(theta / 2)^e in long double.
+/// n = z and the viewer overhead: the half vector's angle is half of the light's, theta. (n.h)^e = cos(theta
+/// / 2)^e in long double.
 TEST(Bsdf, ANarrowLobeHasItsValueOnItsFlank) {
     const Material material = glossy(0, 1, 1e6f);
     for (const double theta : {5e-4, 2e-3, 4e-3}) {
         const Vec3 light{static_cast<float>(std::sin(theta)), 0, static_cast<float>(std::cos(theta))};
-        const long double half = std::atan2(static_cast<long double>(light.x), static_cast<long double>(light.z)) / 2;
-        const double expected = blinn_phong_norm(1e6f) * static_cast<double>(std::exp(1e6L * std::log(std::cos(half))));
+        const long double half =
+            std::atan2(static_cast<long double>(light.x), static_cast<long double>(light.z)) / 2;
+        const double expected =
+            blinn_phong_norm(1e6f) * static_cast<double>(std::exp(1e6L * std::log(std::cos(half))));
         EXPECT_NEAR(brdf(material, {0, 0, 1}, light, {0, 0, 1}).x, expected, 1e-5 * expected) << theta;
     }
 }
@@ -235,13 +251,15 @@ TEST(Bsdf, NothingIsInfiniteForAnyUnitVectors) {
                 for (int turn = 0; turn < 8; ++turn) {
                     const auto at = [&](double e, double phi) {
                         return frame.to_world({static_cast<float>(std::cos(e) * std::cos(phi)),
-                                               static_cast<float>(std::cos(e) * std::sin(phi)), static_cast<float>(std::sin(e))});
+                                               static_cast<float>(std::cos(e) * std::sin(phi)),
+                                               static_cast<float>(std::sin(e))});
                     };
                     const Vec3 in = at(elevation, 0), out = at(other, turn * pi / 4);
                     const Material material = glossy(0.5f, 0.5f, exponent);
                     EXPECT_TRUE(is_finite(brdf(material, normal, out, in)));
                     EXPECT_TRUE(std::isfinite(scatter_pdf(material, normal, in, out)));
-                    EXPECT_FLOAT_EQ(brdf(material, normal, out, in).x, brdf(material, normal, in, out).x);  // reciprocity
+                    EXPECT_FLOAT_EQ(brdf(material, normal, out, in).x,
+                                    brdf(material, normal, in, out).x);  // reciprocity
                     for (const float eta : {1.0001f, 1 / 1.0001f, 5.0f, 0.2f}) {
                         const float share = fresnel(dot(normal, in), eta);
                         EXPECT_GE(share, 0);
@@ -266,10 +284,12 @@ TEST(Bsdf, FresnelAtGrazingAnglesAgreesWithLongDouble) {
             const long double c = cosine, e = eta, sine = std::sqrt(1 - c * c), inner = sine / e;
             long double expected = 1;
             if (inner < 1) {
-                const long double t = std::sqrt(1 - inner * inner), a = (e * c - t) / (e * c + t), b = (c - e * t) / (c + e * t);
+                const long double t = std::sqrt(1 - inner * inner), a = (e * c - t) / (e * c + t),
+                                  b = (c - e * t) / (c + e * t);
                 expected = (a * a + b * b) / 2;
             }
-            EXPECT_NEAR(fresnel(cosine, eta), static_cast<double>(expected), 1e-6 * static_cast<double>(expected) + 1e-12);
+            EXPECT_NEAR(fresnel(cosine, eta), static_cast<double>(expected),
+                        1e-6 * static_cast<double>(expected) + 1e-12);
         }
 }
 

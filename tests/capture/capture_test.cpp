@@ -22,7 +22,8 @@ namespace {
 
 CaptureConfig small() {
     CaptureConfig config;
-    config.pixels = {.width = 24, .height = 16, .gather_rays = 9, .shadow_rays = 4, .max_specular = 16, .seed = 5};
+    config.pixels = {
+        .width = 24, .height = 16, .gather_rays = 9, .shadow_rays = 4, .max_specular = 16, .seed = 5};
     config.photon = {.photons = 5000, .seed = 5};
     config.gather.k = 30;
     config.caustic.photons = 1000;
@@ -121,7 +122,8 @@ TEST(Capture, DecodedWalksAreTheSearchsOwnVisitsOnEveryQuery) {
             spatial::nearest(spatial::PhotonKd(photons), positions[q], found, visits);
             const auto [fault, slots] = decoder.decode(walks.subspan(start, lengths[q]));
             ASSERT_EQ(fault, spatial::WalkFault::none);
-            ASSERT_TRUE(std::equal(slots.begin(), slots.end(), visits.slots.begin(), visits.slots.end())) << name << q;
+            ASSERT_TRUE(std::equal(slots.begin(), slots.end(), visits.slots.begin(), visits.slots.end()))
+                << name << q;
             start += lengths[q];
             visited += slots.size();
         }
@@ -130,13 +132,15 @@ TEST(Capture, DecodedWalksAreTheSearchsOwnVisitsOnEveryQuery) {
 }
 
 TEST(Capture, ARectangleOverAFloorGivesTheAnalyticIrradiance) {
-    // Directly below the centre of a parallel rectangle a x b at distance d the form factor of each quarter is
-    // (1 / 2 pi) (A / sqrt(1 + A^2) atan(B / sqrt(1 + A^2)) + B / sqrt(1 + B^2) atan(A / sqrt(1 + B^2))), A = B = 0.5
-    // (Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-3). Radiance out: albedo x Le x F.
+    // Directly below the centre of a parallel rectangle a x b at distance d the form factor of each quarter
+    // is (1 / 2 pi) (A / sqrt(1 + A^2) atan(B / sqrt(1 + A^2)) + B / sqrt(1 + B^2) atan(A / sqrt(1 + B^2))),
+    // A = B = 0.5 (Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-3). Radiance out:
+    // albedo x Le x F.
     const double a = 0.5, s = std::sqrt(1 + a * a);
     const double quarter = 2 * (a / s) * std::atan(a / s) / (2 * std::numbers::pi), form_factor = 4 * quarter;
     CaptureConfig config = small();
-    config.pixels = {.width = 1, .height = 1, .gather_rays = 0, .shadow_rays = 10000, .max_specular = 4, .seed = 1};
+    config.pixels = {
+        .width = 1, .height = 1, .gather_rays = 0, .shadow_rays = 10000, .max_specular = 4, .seed = 1};
     const Vec3 pixel = capture(light_over_floor(), config).image.pixels[0];
     EXPECT_NEAR(pixel.x, 0.8 * 10 * form_factor, 0.001 * 0.8 * 10);
     EXPECT_NEAR(pixel.y, 0.4 * 10 * form_factor, 0.001 * 0.4 * 10);
@@ -144,10 +148,11 @@ TEST(Capture, ARectangleOverAFloorGivesTheAnalyticIrradiance) {
 }
 
 TEST(Capture, TheFurnaceHasTheRadianceThatTheoryGives) {
-    // A closed box whose walls emit Le = 1 and reflect half: Le / (1 - 1/2) = 2 everywhere. A gather within a fixed small
-    // radius is an unbiased density estimate but within that radius of an edge: 2 % of the walls here, and there off by
-    // less than a tenth. The camera looks at the middle of a wall: in an edge, area sampling of the direct light has no
-    // finite variance. The interval is Student's, 95 % (t of 7 degrees of freedom = 2.365), over 8 seeds.
+    // A closed box whose walls emit Le = 1 and reflect half: Le / (1 - 1/2) = 2 everywhere. A gather within a
+    // fixed small radius is an unbiased density estimate but within that radius of an edge: 2 % of the walls
+    // here, and there off by less than a tenth. The camera looks at the middle of a wall: in an edge, area
+    // sampling of the direct light has no finite variance. The interval is Student's, 95 % (t of 7 degrees of
+    // freedom = 2.365), over 8 seeds.
     scenes::Scene scene = scenes::load_scene("furnace");
     scene.camera.position = {0.5f, 0.2f, 0.5f};
     scene.camera.target = {0.5f, 1, 0.5f};
@@ -155,7 +160,8 @@ TEST(Capture, TheFurnaceHasTheRadianceThatTheoryGives) {
     std::vector<double> means;
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
         CaptureConfig config;
-        config.pixels = {.width = 16, .height = 16, .gather_rays = 64, .shadow_rays = 16, .max_specular = 4, .seed = seed};
+        config.pixels = {
+            .width = 16, .height = 16, .gather_rays = 64, .shadow_rays = 16, .max_specular = 4, .seed = seed};
         config.photon = {.photons = 150000, .seed = seed};
         config.gather = {.k = 1000, .radius = 0.005f};
         double sum = 0;
@@ -187,8 +193,9 @@ TEST(Capture, WhatNobodyNeedsIsLeftOutAndSaid) {
     EXPECT_TRUE(trace.has("query_leaf_bvh"));
     for (const char* name : {"query_direction", "query_leaf_kd", "ray_shadow_origin"}) {
         EXPECT_FALSE(trace.has(name));
-        EXPECT_TRUE(std::any_of(trace.info().left_out.begin(), trace.info().left_out.end(),
-                                [&](const trace::LeftOut& part) { return part.what == name && !part.why.empty(); }))
+        EXPECT_TRUE(
+            std::any_of(trace.info().left_out.begin(), trace.info().left_out.end(),
+                        [&](const trace::LeftOut& part) { return part.what == name && !part.why.empty(); }))
             << name;
     }
     EXPECT_EQ(trace.info().photons, 0u);
@@ -204,26 +211,33 @@ TEST(Capture, ManyLightsGiveTheIrradianceOfTheOneTheyMakeUp) {
         scenes::AreaLight part = whole;
         part.edge_u = whole.edge_u * (1 / 3.0f);
         part.edge_v = whole.edge_v * (1 / 3.0f);
-        part.corner = whole.corner + part.edge_u * static_cast<float>(i % 3) + part.edge_v * static_cast<float>(i / 3);
+        part.corner =
+            whole.corner + part.edge_u * static_cast<float>(i % 3) + part.edge_v * static_cast<float>(i / 3);
         scene.lights.push_back(part);
     }
     CaptureConfig config = small();
-    config.pixels = {.width = 1, .height = 1, .gather_rays = 0, .shadow_rays = 10000, .max_specular = 4, .seed = 1};
+    config.pixels = {
+        .width = 1, .height = 1, .gather_rays = 0, .shadow_rays = 10000, .max_specular = 4, .seed = 1};
     const Vec3 pixel = capture(scene, config).image.pixels[0];
-    const double a = 0.5, s = std::sqrt(1 + a * a), form_factor = 8 * (a / s) * std::atan(a / s) / (2 * std::numbers::pi);
+    const double a = 0.5, s = std::sqrt(1 + a * a),
+                 form_factor = 8 * (a / s) * std::atan(a / s) / (2 * std::numbers::pi);
     EXPECT_NEAR(pixel.x, 0.8 * 10 * form_factor, 0.004 * 0.8 * 10);
 }
 
 TEST(Capture, SeenDirectlyTheFurnaceIsAsBright) {
-    // Equation 2 alone: emission 1, and half of the irradiance over pi of all photons; gathers of a fixed radius in a wall's middle.
+    // Equation 2 alone: emission 1, and half of the irradiance over pi of all photons; gathers of a fixed
+    // radius in a wall's middle.
     scenes::Scene scene = scenes::load_scene("furnace");
     scene.camera.position = {0.5f, 0.2f, 0.5f};
     scene.camera.target = {0.5f, 1, 0.5f};
     scene.camera.vertical_fov_degrees = 30;
     CaptureConfig config;
-    config.pixels = {.width = 16, .height = 16, .max_specular = 4, .visualisation = Visualisation::direct, .seed = 1};
+    config.pixels = {
+        .width = 16, .height = 16, .max_specular = 4, .visualisation = Visualisation::direct, .seed = 1};
     config.photon = {.photons = 600000, .seed = 1};
-    config.gather = {.k = 10000, .radius = 0.02f};  // about 100 photons: a hundredth over the 256 pixels, which overlap little
+    config.gather = {
+        .k = 10000,
+        .radius = 0.02f};  // about 100 photons: a hundredth over the 256 pixels, which overlap little
     const Captured captured = capture(scene, config);
     double sum = 0;
     for (const Vec3 p : captured.image.pixels) sum += (static_cast<double>(p.x) + p.y + p.z) / 3;
@@ -254,7 +268,8 @@ TEST(Capture, TheLayersMakeUpTheImage) {
 }
 
 TEST(Capture, TheVarianceOfAPixelIsTheSquareOfItsScatterOverSeeds) {
-    // Photons play no part: no gather rays. 64 seeds of 4 eye rays with one shadow ray each, and the mean of the variances they tell.
+    // Photons play no part: no gather rays. 64 seeds of 4 eye rays with one shadow ray each, and the mean of
+    // the variances they tell.
     scenes::Scene scene = light_over_floor();
     scene.camera.vertical_fov_degrees = 60;
     CaptureConfig config;
@@ -270,7 +285,8 @@ TEST(Capture, TheVarianceOfAPixelIsTheSquareOfItsScatterOverSeeds) {
         mean += y / 400;
         squares += y * y / 400;
     }
-    // Stratified eye rays scatter less than independent ones would: the told variance is an upper bound, and not far above.
+    // Stratified eye rays scatter less than independent ones would: the told variance is an upper bound, and
+    // not far above.
     const double scatter = squares - mean * mean;
     EXPECT_GT(told, 0.85 * scatter);
     EXPECT_LT(told, 6 * scatter);
@@ -282,7 +298,8 @@ TEST(Capture, EveryPixelGetsItsGatherRaysWhateverTheNumberOfEyeRays) {
         config.pixels.samples = samples;
         const Captured captured = capture(closed_box(0.5), config);
         EXPECT_EQ(captured.info.counts["eye_rays"], 24u * 16 * samples);
-        EXPECT_GE(captured.info.counts["gather_rays"], 24u * 16 * 9 * 98 / 100) << samples;  // an eye ray may see the black light
+        EXPECT_GE(captured.info.counts["gather_rays"], 24u * 16 * 9 * 98 / 100)
+            << samples;  // an eye ray may see the black light
         EXPECT_LE(captured.info.counts["gather_rays"], 24u * 16 * 9) << samples;
     }
 }
@@ -292,7 +309,8 @@ TEST(Capture, EveryPixelGetsItsGatherRays) {
     trace::TraceWriter writer(scratch / "trace", false);
     Captured captured = capture(closed_box(0.5), small(), {&writer});
     writer.finish(captured.info);
-    // A closed box without specular surfaces: each gather ray makes a query unless it ends on the black light.
+    // A closed box without specular surfaces: each gather ray makes a query unless it ends on the black
+    // light.
     EXPECT_EQ(captured.info.counts["gather_rays"], 24u * 16 * 9);
     EXPECT_GT(captured.info.queries, 24u * 16 * 9 * 98 / 100);
     EXPECT_EQ(captured.info.counts["specular_rays"], 0u);

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "capture/capture.h"
 #include "scenes/loader.h"
@@ -11,8 +11,8 @@
 namespace regather::capture {
 namespace {
 
-/// A light of 1 x 1 m at z = 1 that faces up to a mirror ceiling at z = 2, over a floor at z = 0; the camera sees the floor at
-/// (3, 0, 0), which the light reaches by way of the mirror only.
+/// A light of 1 x 1 m at z = 1 that faces up to a mirror ceiling at z = 2, over a floor at z = 0; the camera
+/// sees the floor at (3, 0, 0), which the light reaches by way of the mirror only.
 scenes::Scene light_under_a_mirror() {
     return scenes::parse_scene(
         R"({"name": "mirrored", "camera": {"position": [3.3, 0, 0.4], "target": [3, 0, 0], "up": [0, 0, 1],
@@ -25,8 +25,9 @@ scenes::Scene light_under_a_mirror() {
         "mirrored.json", ".");
 }
 
-/// Form factor from a point to a parallel rectangle at distance d whose corners are (x0, y0) and (x1, y1) off the point's normal:
-/// Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-3, for the four rectangles between normal and corners.
+/// Form factor from a point to a parallel rectangle at distance d whose corners are (x0, y0) and (x1, y1) off
+/// the point's normal: Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-3, for the four
+/// rectangles between normal and corners.
 double form_factor(double x0, double x1, double y0, double y1, double d) {
     const auto corner = [d](double x, double y) {
         const double a = x / d, b = y / d, s = std::sqrt(1 + a * a), t = std::sqrt(1 + b * b);
@@ -37,15 +38,16 @@ double form_factor(double x0, double x1, double y0, double y1, double d) {
 
 CaptureConfig one_pixel(std::uint64_t seed) {
     CaptureConfig config;
-    config.pixels = {.width = 1, .height = 1, .gather_rays = 0, .shadow_rays = 16, .max_specular = 8, .seed = seed};
+    config.pixels = {
+        .width = 1, .height = 1, .gather_rays = 0, .shadow_rays = 16, .max_specular = 8, .seed = seed};
     config.photon = {.photons = 1000, .seed = seed};
     config.caustic = {.photons = 400'000, .k = 100'000, .radius = 0.3f, .filter = Filter::none};
     return config;
 }
 
 TEST(CausticMap, APlaneMirrorLightsTheFloorLikeTheLightsMirrorImage) {
-    // The image lies at z = 3 and has half the radiance. About 1000 photons a seed lie within the radius: 3 % each, 1.1 %
-    // over 8; the interval below is 4 standard errors.
+    // The image lies at z = 3 and has half the radiance. About 1000 photons a seed lie within the radius: 3 %
+    // each, 1.1 % over 8; the interval below is 4 standard errors.
     const double truth = 0.8 * 5 * form_factor(-3.5, -2.5, -0.5, 0.5, 3);
     double sum = 0;
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
@@ -69,8 +71,8 @@ TEST(CausticMap, WithoutItGatherRaysFindTheSameLight) {
 }
 
 TEST(CausticMap, SeenDirectlyBothMapsHoldEachPhotonOnce) {
-    // All light on the floor at (3, 0) is the mirror image's or comes back from the floor: the direct visualisation of the
-    // global map leaves the first to the caustic map.
+    // All light on the floor at (3, 0) is the mirror image's or comes back from the floor: the direct
+    // visualisation of the global map leaves the first to the caustic map.
     CaptureConfig config = one_pixel(3);
     config.pixels.visualisation = Visualisation::direct;
     config.photon.photons = 200'000;
@@ -103,11 +105,13 @@ TEST(CausticMap, IsATraceOfItsOwn) {
     for (const std::uint32_t count : captured.layers.query_count) EXPECT_LE(count, 5u);
 }
 
-// --- what a scene does not need ---------------------------------------------------------------------------------
+// --- what a scene does not need
+// ---------------------------------------------------------------------------------
 
 CaptureConfig small() {
     CaptureConfig config;
-    config.pixels = {.width = 12, .height = 8, .gather_rays = 4, .shadow_rays = 4, .max_specular = 16, .seed = 5};
+    config.pixels = {
+        .width = 12, .height = 8, .gather_rays = 4, .shadow_rays = 4, .max_specular = 16, .seed = 5};
     config.photon = {.photons = 2000, .seed = 5};
     config.caustic.photons = 10;
     config.gather.k = 30;

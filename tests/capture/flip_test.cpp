@@ -1,6 +1,7 @@
-// FLIP against values from elsewhere. For images of one colour the filters drop out and the value follows from the published
-// formulas; the values of patterned images come from a separate program that sums over whole two-dimensional kernels. (The
-// authors' own pictures and their means, 0.159691 and 0.283478, are not available to this test.)
+// FLIP against values from elsewhere. For images of one colour the filters drop out and the value follows
+// from the published formulas; the values of patterned images come from a separate program that sums over
+// whole two-dimensional kernels. (The authors' own pictures and their means, 0.159691 and 0.283478, are not
+// available to this test.)
 #include "capture/flip.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +54,8 @@ TEST(LdrFlip, GreysFollowFromTheirLightness) {
         const double powered = std::pow(std::abs(lightness(a) - lightness(b)), 0.7);
         ASSERT_LT(powered, knee);
         const auto va = static_cast<float>(a), vb = static_cast<float>(b);
-        for (const float v : ldr_flip(flat({va, va, va}), flat({vb, vb, vb}))) EXPECT_NEAR(v, 0.95 / knee * powered, 2e-6);
+        for (const float v : ldr_flip(flat({va, va, va}), flat({vb, vb, vb})))
+            EXPECT_NEAR(v, 0.95 / knee * powered, 2e-6);
     }
     // Black and white: 100^0.7 = 25.1189 is beyond the knee.
     const double expected = 0.95 + 0.05 * (std::pow(100, 0.7) - knee) / (most - knee);
@@ -83,7 +85,8 @@ TEST(LdrFlip, IsSymmetricAndWithinBounds) {
 }
 
 TEST(LdrFlip, ValuesOutsideTheGamutAreClamped) {
-    EXPECT_EQ(ldr_flip(flat({-1, 0.5f, 7}), flat({0.2f, 0.2f, 0.2f})), ldr_flip(flat({0, 0.5f, 1}), flat({0.2f, 0.2f, 0.2f})));
+    EXPECT_EQ(ldr_flip(flat({-1, 0.5f, 7}), flat({0.2f, 0.2f, 0.2f})),
+              ldr_flip(flat({0, 0.5f, 1}), flat({0.2f, 0.2f, 0.2f})));
 }
 
 TEST(LdrFlip, AnEdgeCountsMoreThanItsColour) {

@@ -40,18 +40,21 @@ TEST(FalseColour, RunsFromBlueOverWhiteToRed) {
 }
 
 TEST(ImageStrip, ShowsResultReferenceErrorAndBar) {
-    // Two pixels: a panel has 256 x 128 pixels of 128 x 128 squares, 10 around and 32 + 0 above for the titles.
+    // Two pixels: a panel has 256 x 128 pixels of 128 x 128 squares, 10 around and 32 + 0 above for the
+    // titles.
     const Image reference{2, 1, {{1, 1, 1}, {1, 1, 1}}}, image{2, 1, {{1, 1, 1}, {0.5f, 0.5f, 0.5f}}};
     const Picture strip = image_strip(image, reference);
-    const auto at = [&](std::uint32_t x, std::uint32_t y) { return strip.pixels[std::size_t{y} * strip.width + x]; };
+    const auto at = [&](std::uint32_t x, std::uint32_t y) {
+        return strip.pixels[std::size_t{y} * strip.width + x];
+    };
     const std::uint32_t middle = 32 + 64;
-    EXPECT_EQ(at(10 + 5, middle), at(276 + 5, middle));       // as bright as the reference
+    EXPECT_EQ(at(10 + 5, middle), at(276 + 5, middle));  // as bright as the reference
     EXPECT_LT(at(10 + 200, middle)[0], at(276 + 200, middle)[0]);
-    EXPECT_EQ(at(542 + 5, middle), (Rgb{255, 255, 255}));     // no error
-    EXPECT_EQ(at(542 + 200, middle), (Rgb{33, 102, 172}));    // half: the range is 50 %
-    EXPECT_NEAR(at(808 + 8, 32)[0], 178, 2);                  // the bar: red on top,
-    EXPECT_GE(at(808 + 8, middle)[1], 250);                   // white in the middle,
-    EXPECT_NEAR(at(808 + 8, 32 + 127)[2], 172, 2);            // blue below
+    EXPECT_EQ(at(542 + 5, middle), (Rgb{255, 255, 255}));   // no error
+    EXPECT_EQ(at(542 + 200, middle), (Rgb{33, 102, 172}));  // half: the range is 50 %
+    EXPECT_NEAR(at(808 + 8, 32)[0], 178, 2);                // the bar: red on top,
+    EXPECT_GE(at(808 + 8, middle)[1], 250);                 // white in the middle,
+    EXPECT_NEAR(at(808 + 8, 32 + 127)[2], 172, 2);          // blue below
     EXPECT_EQ(at(3, 3), (Rgb{255, 255, 255}));
     bool written = false;
     for (std::uint32_t x = 10; x < 100; ++x) written |= at(x, 15)[0] < 100;

@@ -45,8 +45,10 @@ Scene field_of_lights(std::uint32_t count) {
     Scene scene;
     for (std::uint32_t i = 0; i < count; ++i) {
         Sampler random(5, Stream::eye, i);
-        const auto any = [&](float size) { return Vec3{size * (random.uniform() - 0.5f), size * (random.uniform() - 0.5f),
-                                                       size * (random.uniform() - 0.5f)}; };
+        const auto any = [&](float size) {
+            return Vec3{size * (random.uniform() - 0.5f), size * (random.uniform() - 0.5f),
+                        size * (random.uniform() - 0.5f)};
+        };
         const Vec3 corner = any(10), u = any(1), v = any(1);
         scene.lights.push_back(rectangle(corner, u, v, std::pow(10.0f, 6 * random.uniform() - 3)));
     }
@@ -90,7 +92,8 @@ TEST(LightSampler, SharesAddUpToOneAndAreTheFrequenciesOfTheSamples) {
             }
         }
         if (rest_expected >= 10) add(rest_expected, rest_found);
-        const double freedom = classes - 1;  // normal beyond ten degrees of freedom: within 4 deviations, p = 6e-5
+        const double freedom =
+            classes - 1;  // normal beyond ten degrees of freedom: within 4 deviations, p = 6e-5
         EXPECT_LT(chi2, freedom + 4 * std::sqrt(2 * freedom) + 6) << count;
     }
 }
@@ -104,7 +107,8 @@ TEST(LightSampler, OnlyLightsThatCannotReachThePointAreLeftOut) {
     for (int place = 0; place < 20; ++place) {
         Sampler random(9, Stream::gather, static_cast<std::uint64_t>(place));
         const Vec3 point{10 * random.uniform() - 5, 10 * random.uniform() - 5, 10 * random.uniform() - 5};
-        const Vec3 side = normalize(Vec3{random.uniform() - 0.5f, random.uniform() - 0.5f, random.uniform() - 0.5f});
+        const Vec3 side =
+            normalize(Vec3{random.uniform() - 0.5f, random.uniform() - 0.5f, random.uniform() - 0.5f});
         lights.look(point, side, view);
         for (std::uint32_t l = 0; l < lights.size(); ++l) {
             bool reaches = false;
@@ -144,10 +148,12 @@ TEST(LightSampler, ALightBehindItsPlaneOrBelowTheHorizonIsNeverTaken) {
     EXPECT_FALSE(lights.sample(view, 0.5, 0.5, 0.5, point));
 }
 
-/// Solid angle of a rectangle light by points chosen on it: 4 atan(ab / (d sqrt(a^2 + b^2 + d^2))) for half edges a, b.
+/// Solid angle of a rectangle light by points chosen on it: 4 atan(ab / (d sqrt(a^2 + b^2 + d^2))) for half
+/// edges a, b.
 TEST(LightSampler, TheSolidAngleOfARectangleIsTheTextbookOne) {
     Scene scene;
-    scene.lights = {rectangle({-0.5f, -1, 2}, {0, 2, 0}, {1, 0, 0}, 1), rectangle({5, 5, 1}, {0, 2, 0}, {1, 0, 0}, 3)};
+    scene.lights = {rectangle({-0.5f, -1, 2}, {0, 2, 0}, {1, 0, 0}, 1),
+                    rectangle({5, 5, 1}, {0, 2, 0}, {1, 0, 0}, 3)};
     const LightSampler lights(scene);
     View view;
     lights.look({0, 0, 0}, {0, 0, 1}, view);
@@ -202,7 +208,8 @@ TEST(LightSampler, PointsOfAMeshLightLieEvenlyOnItsTriangles) {
 
 TEST(LightSampler, PhotonsCarryThePowerOfAllLights) {
     Scene scene;
-    scene.lights = {rectangle({0, 0, 2}, {0, 1, 0}, {1, 0, 0}, 2), rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0)};
+    scene.lights = {rectangle({0, 0, 2}, {0, 1, 0}, {1, 0, 0}, 2),
+                    rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0)};
     scene.lights[0].radiance = {4, 2, 0};
     add_mesh_light(scene, scenes::tessellate(scenes::Sphere{{5, 5, 5}, 0.5f, 16}), {1, 1, 1});
     const LightSampler lights(scene);
@@ -230,13 +237,15 @@ TEST(LightSampler, PhotonsCarryThePowerOfAllLights) {
     EXPECT_EQ(counts[1], 0);
     EXPECT_NEAR(cosine / photons, 2.0 / 3, 4 * std::sqrt(1.0 / 18 / photons));  // of the density cos / pi
     for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(sum[static_cast<std::size_t>(c)] / photons, lights.total_power()[c], 0.02 * lights.total_power().x);
+        EXPECT_NEAR(sum[static_cast<std::size_t>(c)] / photons, lights.total_power()[c],
+                    0.02 * lights.total_power().x);
 }
 
 TEST(LightSampler, WithoutPowerItIsDark) {
     Scene scene;
     EXPECT_TRUE(LightSampler(scene).dark());
-    scene.lights = {rectangle({0, 0, 2}, {0, 1, 0}, {1, 0, 0}, 0), rectangle({0, 0, 2}, {0, 1, 0}, {0, 1, 0}, 1)};
+    scene.lights = {rectangle({0, 0, 2}, {0, 1, 0}, {1, 0, 0}, 0),
+                    rectangle({0, 0, 2}, {0, 1, 0}, {0, 1, 0}, 1)};
     const LightSampler lights(scene);  // black, and without area
     EXPECT_TRUE(lights.dark());
     View view;

@@ -32,7 +32,8 @@ TEST(PhotonPass, EveryFlightEndsSomewhere) {
         const PhotonTally tally = trace(scene, 20000).tally;
         for (std::size_t c = 0; c < 3; ++c) {
             const double in = tally.emitted[c] + tally.reflected[c];
-            const double out = tally.stored[c] + tally.escaped[c] + tally.absorbed_by_specular[c] + tally.cut_off[c];
+            const double out =
+                tally.stored[c] + tally.escaped[c] + tally.absorbed_by_specular[c] + tally.cut_off[c];
             EXPECT_NEAR(out / in, 1, 1e-6) << name;
         }
     }
@@ -74,7 +75,8 @@ TEST(PhotonPass, InAClosedBoxOfAlbedoAEachWattIsStoredOneOverOneMinusATimes) {
 }
 
 TEST(PhotonPass, ExactlyTheAskedNumberIsStored) {
-    for (const std::uint32_t count : {1u, 7u, 4096u, 70001u}) EXPECT_EQ(trace(closed_box(0.8), count).photons.size(), count);
+    for (const std::uint32_t count : {1u, 7u, 4096u, 70001u})
+        EXPECT_EQ(trace(closed_box(0.8), count).photons.size(), count);
     EXPECT_TRUE(trace(closed_box(0.8), 0).photons.empty());
 }
 
@@ -100,7 +102,8 @@ TEST(PhotonPass, TheSameBytesOnAnyNumberOfThreads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
     const PhotonPass one = trace(scene, 100000);
     ASSERT_EQ(one.photons.size(), two.photons.size());
-    EXPECT_EQ(0, std::memcmp(one.photons.data(), two.photons.data(), one.photons.size() * sizeof(trace::Photon)));
+    EXPECT_EQ(
+        0, std::memcmp(one.photons.data(), two.photons.data(), one.photons.size() * sizeof(trace::Photon)));
     EXPECT_EQ(one.tally.stored, two.tally.stored);
 }
 

@@ -15,7 +15,8 @@ constexpr float photon_watts = 0.25f;  // exact in RGBE but for the half step
 constexpr float decoded_watts = photon_watts * (1 + 1.0f / 256);
 
 /// Photons evenly on a square of `edge` around the origin, coming straight down onto z = 0.
-std::vector<trace::Photon> even_floor(std::size_t count, float edge, std::uint64_t seed, Vec3 normal = {0, 0, 1}) {
+std::vector<trace::Photon> even_floor(std::size_t count, float edge, std::uint64_t seed,
+                                      Vec3 normal = {0, 0, 1}) {
     std::vector<trace::Photon> photons(count);
     Sampler sampler(seed, Stream::photon, 0);
     for (trace::Photon& photon : photons) {
@@ -31,21 +32,25 @@ double mean_estimate(std::uint32_t k, float radius, Filter filter, int seeds) {
     const Material white{.name = "white", .diffuse = {1, 1, 1}};
     double sum = 0;
     for (int seed = 0; seed < seeds; ++seed) {
-        const std::vector<trace::Photon> heap = spatial::left_balanced(even_floor(2000, 2, static_cast<std::uint64_t>(seed)));
+        const std::vector<trace::Photon> heap =
+            spatial::left_balanced(even_floor(2000, 2, static_cast<std::uint64_t>(seed)));
         const spatial::PhotonKd tree(heap);
         spatial::NearestSet found(k, radius);
         spatial::nearest(tree, {0, 0, 0}, found);
-        sum += static_cast<double>(reflected_radiance(tree, found, {&white, {0, 0, 1}, {0, 0, 1}}, filter, true).x);
+        sum += static_cast<double>(
+            reflected_radiance(tree, found, {&white, {0, 0, 1}, {0, 0, 1}}, filter, true).x);
     }
     return sum / seeds;
 }
 
 TEST(RadianceEstimate, OfEvenPhotonsIsTheirPowerOverTheAreaWhateverKRadiusAndFilter) {
-    // 2000 photons on 4 m^2; a white floor sends irradiance / pi. A full set of k has relative standard deviation 1 / sqrt(k - 2),
-    // a fixed radius 1 / sqrt(k): over 1000 maps at most 0.018 here, and 1.4 times that under a filter; 4 sigma.
+    // 2000 photons on 4 m^2; a white floor sends irradiance / pi. A full set of k has relative standard
+    // deviation 1 / sqrt(k - 2), a fixed radius 1 / sqrt(k): over 1000 maps at most 0.018 here, and 1.4 times
+    // that under a filter; 4 sigma.
     const double truth = 2000.0 * decoded_watts / 4 / std::numbers::pi;
     for (const Filter filter : {Filter::none, Filter::cone, Filter::gaussian}) {
-        EXPECT_NEAR(mean_estimate(5, std::numeric_limits<float>::infinity(), filter, 1000) / truth, 1, 0.08) << filter_names[static_cast<std::size_t>(filter)];
+        EXPECT_NEAR(mean_estimate(5, std::numeric_limits<float>::infinity(), filter, 1000) / truth, 1, 0.08)
+            << filter_names[static_cast<std::size_t>(filter)];
         EXPECT_NEAR(mean_estimate(40, std::numeric_limits<float>::infinity(), filter, 400) / truth, 1, 0.05);
         EXPECT_NEAR(mean_estimate(2000, 0.15f, filter, 400) / truth, 1, 0.05);
     }
@@ -61,7 +66,8 @@ TEST(RadianceEstimate, CountsTheFarthestPhotonOfAFullSetAsTheBoundOnly) {
     const spatial::PhotonKd tree(heap);
     spatial::NearestSet found(2);
     spatial::nearest(tree, {0, 0, 0}, found);
-    const double estimate = static_cast<double>(reflected_radiance(tree, found, {&white, {0, 0, 1}, {0, 0, 1}}, Filter::none, true).x);
+    const double estimate = static_cast<double>(
+        reflected_radiance(tree, found, {&white, {0, 0, 1}, {0, 0, 1}}, Filter::none, true).x);
     EXPECT_NEAR(estimate, decoded_watts / (4 * std::numbers::pi) / std::numbers::pi, 1e-6);
 }
 
@@ -70,12 +76,14 @@ TEST(RadianceEstimate, DoesNotUsePhotonsOfSurfacesThatFaceElsewhereUnlessItIsTol
     std::vector<trace::Photon> photons = even_floor(300, 1, 1);
     std::vector<trace::Photon> wall = even_floor(300, 1, 2, {1, 0, 0});
     photons.insert(photons.end(), wall.begin(), wall.end());
-    const std::vector<trace::Photon> heap = spatial::left_balanced(photons), floor = spatial::left_balanced(even_floor(300, 1, 1));
+    const std::vector<trace::Photon> heap = spatial::left_balanced(photons),
+                                     floor = spatial::left_balanced(even_floor(300, 1, 1));
     const auto estimate = [&](const std::vector<trace::Photon>& map, bool check) {
         spatial::NearestSet found(1000, 0.4f);
         spatial::nearest(spatial::PhotonKd(map), {0, 0, 0}, found);
-        return static_cast<double>(
-            reflected_radiance(spatial::PhotonKd(map), found, {&white, {0, 0, 1}, {0, 0, 1}}, Filter::none, check).x);
+        return static_cast<double>(reflected_radiance(spatial::PhotonKd(map), found,
+                                                      {&white, {0, 0, 1}, {0, 0, 1}}, Filter::none, check)
+                                       .x);
     };
     EXPECT_NEAR(estimate(heap, true), estimate(floor, true), 1e-4 * estimate(floor, true));
     EXPECT_GT(estimate(heap, false), 1.5 * estimate(heap, true));
@@ -88,7 +96,10 @@ TEST(RadianceEstimate, OfPhotonsThatDoNotTellTheirSurfaceUsesThem) {
     const std::vector<trace::Photon> heap = spatial::left_balanced(photons);
     spatial::NearestSet found(50);
     spatial::nearest(spatial::PhotonKd(heap), {0, 0, 0}, found);
-    EXPECT_GT(reflected_radiance(spatial::PhotonKd(heap), found, {&white, {0, 0, 1}, {0, 0, 1}}, Filter::none, true).x, 0);
+    EXPECT_GT(
+        reflected_radiance(spatial::PhotonKd(heap), found, {&white, {0, 0, 1}, {0, 0, 1}}, Filter::none, true)
+            .x,
+        0);
 }
 
 TEST(RadianceEstimate, IsBlackWhereNothingIsFoundOrAllPhotonsLieAtThePoint) {
@@ -99,7 +110,9 @@ TEST(RadianceEstimate, IsBlackWhereNothingIsFoundOrAllPhotonsLieAtThePoint) {
     for (const Vec3 point : {Vec3{0, 0, 0}, Vec3{9, 0, 0}}) {
         spatial::NearestSet found(50, 1);
         spatial::nearest(spatial::PhotonKd(heap), point, found);
-        EXPECT_EQ(reflected_radiance(spatial::PhotonKd(heap), found, {&white, {0, 0, 1}, {0, 0, 1}}, Filter::none, true), Vec3{});
+        EXPECT_EQ(reflected_radiance(spatial::PhotonKd(heap), found, {&white, {0, 0, 1}, {0, 0, 1}},
+                                     Filter::none, true),
+                  Vec3{});
     }
 }
 

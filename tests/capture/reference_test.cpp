@@ -154,7 +154,8 @@ TEST_F(ReferenceTest, TellsItsOwnError) {
     std::vector<Moments> over_seeds(key.width * key.height);
     double told = 0;
     for (int seed = 0; seed < seeds; ++seed) {
-        const PathTracer other(scene, caster, lights, {.width = 12, .height = 9, .seed = static_cast<std::uint64_t>(seed)});
+        const PathTracer other(scene, caster, lights,
+                               {.width = 12, .height = 9, .seed = static_cast<std::uint64_t>(seed)});
         Reference reference({"closed", key.scene_checksum, 12, 9, static_cast<std::uint64_t>(seed)});
         reference.add(other, samples);
         told += reference.mean_variance() / seeds;
@@ -163,7 +164,8 @@ TEST_F(ReferenceTest, TellsItsOwnError) {
     }
     double found = 0;
     for (const Moments& pixel : over_seeds)
-        for (std::size_t c = 0; c < 3; ++c) found += pixel.variance(c, seeds) * seeds / (3.0 * key.width * key.height);
+        for (std::size_t c = 0; c < 3; ++c)
+            found += pixel.variance(c, seeds) * seeds / (3.0 * key.width * key.height);
     EXPECT_NEAR(found / told, 1, 0.08);
 }
 

@@ -8,12 +8,14 @@
 
 namespace regather::capture {
 
-/// A box of 1 m whose six walls have the albedo, with a small light under the ceiling that faces down. `open`: without floor.
+/// A box of 1 m whose six walls have the albedo, with a small light under the ceiling that faces down.
+/// `open`: without floor.
 inline scenes::Scene closed_box(double albedo, bool open = false) {
     std::string walls;
     const auto wall = [&](const char* corner, const char* u, const char* v) {
-        walls += fmt::format(R"({}{{"type": "quad", "material": "wall", "corner": {}, "edge_u": {}, "edge_v": {}}})",
-                             walls.empty() ? "" : ", ", corner, u, v);
+        walls += fmt::format(
+            R"({}{{"type": "quad", "material": "wall", "corner": {}, "edge_u": {}, "edge_v": {}}})",
+            walls.empty() ? "" : ", ", corner, u, v);
     };
     if (!open) wall("[0, 0, 0]", "[1, 0, 0]", "[0, 1, 0]");
     wall("[0, 0, 1]", "[0, 1, 0]", "[1, 0, 0]");
@@ -32,7 +34,8 @@ inline scenes::Scene closed_box(double albedo, bool open = false) {
         "closed.json", ".");
 }
 
-/// A floor at z = 0, a light of 1 x 1 m at z = 1 above its centre facing down, and a camera that looks at the floor's centre.
+/// A floor at z = 0, a light of 1 x 1 m at z = 1 above its centre facing down, and a camera that looks at the
+/// floor's centre.
 inline scenes::Scene light_over_floor() {
     return scenes::parse_scene(
         R"({"name": "floor", "camera": {"position": [0.9, 0, 0.5], "target": [0, 0, 0], "up": [0, 0, 1],

@@ -16,7 +16,8 @@ scenes::Scene looking_at(const std::string& material) {
     return scenes::parse_scene(
         R"({"name": "mirror", "camera": {"position": [0, 0, 0], "target": [1, 0, 0], "up": [0, 0, 1],
                                            "vertical_fov_degrees": 0.01},
-            "materials": {"surface": )" + material + R"(},
+            "materials": {"surface": )" +
+            material + R"(},
             "shapes": [{"type": "quad", "material": "surface", "corner": [2, -1, -1], "edge_u": [0, 0, 2], "edge_v": [0, 2, 0]}],
             "lights": [{"corner": [-3, -1, -1], "edge_u": [0, 2, 0], "edge_v": [0, 0, 2], "radiance": [4, 4, 4]}]})",
         "mirror.json", ".");
@@ -26,7 +27,8 @@ Vec3 seen(const scenes::Scene& scene) {
     const RayCaster caster(scene);
     PixelWork work;
     const LightSampler lights(scene);
-    const QueryConfig config{.width = 1, .height = 1, .gather_rays = 4, .shadow_rays = 4, .max_specular = 8, .seed = 1};
+    const QueryConfig config{
+        .width = 1, .height = 1, .gather_rays = 4, .shadow_rays = 4, .max_specular = 8, .seed = 1};
     QueryPass(scene, caster, lights, config, {}).run(0, 1, work);
     return work.radiance[0][static_cast<std::size_t>(Layer::specular)];
 }
@@ -43,9 +45,14 @@ TEST(QueryPass, GlassAtNormalIncidenceReflectsFourPercent) {
 }
 
 /// Mean radiance over an image, and its standard error.
-std::pair<double, double> mean_radiance(const scenes::Scene& scene, std::uint32_t edge, std::uint32_t gather_rays) {
+std::pair<double, double> mean_radiance(const scenes::Scene& scene, std::uint32_t edge,
+                                        std::uint32_t gather_rays) {
     CaptureConfig config;
-    config.pixels = {.width = edge, .height = edge, .gather_rays = gather_rays, .shadow_rays = 16, .max_specular = 64,
+    config.pixels = {.width = edge,
+                     .height = edge,
+                     .gather_rays = gather_rays,
+                     .shadow_rays = 16,
+                     .max_specular = 64,
                      .seed = 2};
     config.photon = {.photons = 100000, .seed = 2};
     config.gather = {.k = 1000, .radius = 0.01f};
@@ -67,7 +74,10 @@ scenes::Scene furnace_with(const char* shapes) {
     root["materials"]["glass"] = {{"kind", "dielectric"}, {"index_of_refraction", 1.5}};
     root["materials"]["silver"] = {{"kind", "mirror"}, {"specular", {1, 1, 1}}};
     root["shapes"] = nlohmann::json::parse(shapes);
-    root["camera"] = {{"position", {0.5, 0.5, 0.5}}, {"target", {0.5, 1, 0.5}}, {"up", {0, 0, 1}}, {"vertical_fov_degrees", 30}};
+    root["camera"] = {{"position", {0.5, 0.5, 0.5}},
+                      {"target", {0.5, 1, 0.5}},
+                      {"up", {0, 0, 1}},
+                      {"vertical_fov_degrees", 30}};
     return scenes::parse_scene(root.dump(), "furnace.json", ".");
 }
 
@@ -86,7 +96,8 @@ TEST(QueryPass, ASlabOfGlassPassesWhatTheSeriesOfItsReflectionsSays) {
 
 TEST(QueryPass, GlassAndMirrorBallsInAFurnaceCannotBeSeen) {
     const auto [mean, error] = mean_radiance(
-        furnace_with(R"([{"type": "sphere", "material": "glass", "center": [0.5, 0.75, 0.5], "radius": 0.1, "segments": 32},
+        furnace_with(
+            R"([{"type": "sphere", "material": "glass", "center": [0.5, 0.75, 0.5], "radius": 0.1, "segments": 32},
                          {"type": "sphere", "material": "silver", "center": [0.35, 0.7, 0.5], "radius": 0.04, "segments": 32}])"),
         32, 64);
     EXPECT_NEAR(mean, 2, 4 * error + 0.01);  // 0.5 %: photons share their noise among the pixels
@@ -95,7 +106,9 @@ TEST(QueryPass, GlassAndMirrorBallsInAFurnaceCannotBeSeen) {
 
 TEST(QueryPass, InsideGlassRadianceIsLargerByTheSquareOfTheIndex) {
     const auto [mean, error] = mean_radiance(
-        furnace_with(R"([{"type": "box", "material": "glass", "min": [0.05, 0.05, 0.05], "max": [0.95, 0.95, 0.95]}])"), 32, 64);
+        furnace_with(
+            R"([{"type": "box", "material": "glass", "min": [0.05, 0.05, 0.05], "max": [0.95, 0.95, 0.95]}])"),
+        32, 64);
     EXPECT_NEAR(mean, 1.5 * 1.5 * 2, 4 * error + 0.0225);
     EXPECT_LT(error, 0.05);
 }

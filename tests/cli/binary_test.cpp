@@ -97,10 +97,11 @@ TEST(Cachesim, AnAddressTraceBecomesATable) {
     const std::vector<std::string> words{
         "cachesim", (scratch / "addresses.npy").string(), "--size", "128", "--line", "64", "--ways",
         "1,full"};
-    EXPECT_EQ(expect_done(words).out,
-              "policy,size_bytes,line_bytes,ways,accesses,hits,misses,compulsory,capacity,conflict,writebacks,"
-              "writes_through,traffic_bytes\n"
-              "lru,128,64,1,4,1,3,3,0,0,0,0,192\nlru,128,64,full,4,1,3,3,0,0,0,0,192\n");
+    EXPECT_EQ(
+        expect_done(words).out,
+        "policy,size_bytes,line_bytes,ways,accesses,hits,misses,compulsory,capacity,conflict,writebacks,"
+        "writes_through,traffic_bytes\n"
+        "lru,128,64,1,4,1,3,3,0,0,0,0,192\nlru,128,64,full,4,1,3,3,0,0,0,0,192\n");
     write(scratch / "program.din", "0 0\n0 zero\n");
     expect_refused(
         bad_data,

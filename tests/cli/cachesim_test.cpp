@@ -244,18 +244,21 @@ TEST_F(CachesimCommand, AllLruTellsWhatEachCacheAskedForAloneTells) {
     for (std::uint64_t i = 0; i < 20'000; ++i) addresses.push_back(i * i % 977 * 40 + i % 3 * 4096);
     trace::write_column<std::uint64_t>(file("many.npy"), addresses);
     run({file("many.npy"), "--all-lru", "--line", "64,128", "--csv", file("all.csv")});
-    run({file("many.npy"), "--size", "4K,16K", "--line", "64,128", "--ways", "1,8,full", "--csv", file("some.csv")});
+    run({file("many.npy"), "--size", "4K,16K", "--line", "64,128", "--ways", "1,8,full", "--csv",
+         file("some.csv")});
     const std::string all = content("all.csv");
     std::istringstream some(content("some.csv"));
     std::size_t rows = 0;
     for (std::string row; std::getline(some, row); ++rows) EXPECT_THAT(all, HasSubstr(row + '\n'));
     EXPECT_EQ(rows, 1u + 12u);
     EXPECT_THAT(usage_error({file("many.npy"), "--all-lru"}), HasSubstr("--line"));
-    EXPECT_THAT(usage_error({file("many.npy"), "--all-lru", "--line", "64", "--ways", "33"}), HasSubstr("--ways"));
+    EXPECT_THAT(usage_error({file("many.npy"), "--all-lru", "--line", "64", "--ways", "33"}),
+                HasSubstr("--ways"));
 }
 
 TEST_F(CachesimCommand, AllLruLeavesTheTrafficOfATraceWithWritesOpen) {
-    run({file("addresses.npy"), "--writes", file("writes.npy"), "--all-lru", "--line", "64", "--no-3c", "--csv", file("all.csv")});
+    run({file("addresses.npy"), "--writes", file("writes.npy"), "--all-lru", "--line", "64", "--no-3c",
+         "--csv", file("all.csv")});
     // 0 64 128 0 64 192: one set of one way misses always.
     EXPECT_THAT(content("all.csv"), HasSubstr("lru,64,64,1,6,0,6,,,,,,\n"));
 }

@@ -44,8 +44,10 @@ TEST(Import, BadDataIsOneLineAndExit3AndLeavesNothing) {
     const Scratch scratch;
     write(scratch / "bad.sh3d", "not a zip archive at all");
     write(scratch / "bad.obj", "v 0 0\n");
-    for (const auto& [kind, file] : {std::pair{"sweethome3d", "bad.sh3d"}, {"mesh", "bad.obj"}, {"furniture", "bad.sh3d"}}) {
-        const Outcome outcome = regather({"import", kind, (scratch / file).string(), "-o", (scratch / "out").string()});
+    for (const auto& [kind, file] :
+         {std::pair{"sweethome3d", "bad.sh3d"}, {"mesh", "bad.obj"}, {"furniture", "bad.sh3d"}}) {
+        const Outcome outcome =
+            regather({"import", kind, (scratch / file).string(), "-o", (scratch / "out").string()});
         EXPECT_EQ(outcome.exit_code, 3) << kind;
         EXPECT_THAT(outcome.err, HasSubstr(file));
         EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;

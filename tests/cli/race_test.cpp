@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "cli/contest.h"
+#include "experiment/contest.h"
 #include "results/csv.h"
 #include "spatial/photon_kd.h"
 #include "tests/cli/expect.h"

@@ -121,9 +121,16 @@ TEST(Replay, AColumnThatWasLeftOutIsNamedWithItsReason) {
 }
 
 TEST(Replay, ClassesAddUpToTheMisses) {
-    const std::vector<std::string> words{"replay", (captured_box() / "trace").string(), "--order", "naive", "random",
-                                         "--cache", "1K,2K:64:1,2,full", "4K:128:32"};
-    const auto with = results::from_csv(expect_done(words + std::vector<std::string>{"--classes"}).out, "stdout");
+    const std::vector<std::string> words{"replay",
+                                         (captured_box() / "trace").string(),
+                                         "--order",
+                                         "naive",
+                                         "random",
+                                         "--cache",
+                                         "1K,2K:64:1,2,full",
+                                         "4K:128:32"};
+    const auto with =
+        results::from_csv(expect_done(words + std::vector<std::string>{"--classes"}).out, "stdout");
     const auto without = results::from_csv(expect_done(words).out, "stdout");
     ASSERT_EQ(with.size(), 14u);
     ASSERT_EQ(without.size(), 14u);
@@ -134,23 +141,27 @@ TEST(Replay, ClassesAddUpToTheMisses) {
         if (row.ways == 0u) {
             EXPECT_EQ(row.conflict, 0u);
         }
-        EXPECT_FALSE(row.set_sampling || row.sampled_sets || row.misses_stderr || row.misses_low || row.misses_high);
+        EXPECT_FALSE(row.set_sampling || row.sampled_sets || row.misses_stderr || row.misses_low ||
+                     row.misses_high);
         EXPECT_EQ(without[r].misses, row.misses);
         EXPECT_FALSE(without[r].compulsory || without[r].capacity || without[r].conflict);
     }
     // Lists are multiplied out, sizes outermost, ways innermost.
     std::vector<std::pair<std::uint64_t, std::uint64_t>> caches;
     for (std::size_t r = 0; r < 7; ++r) caches.emplace_back(*with[r].cache_bytes, *with[r].ways);
-    EXPECT_THAT(caches, testing::ElementsAre(testing::Pair(1024, 1), testing::Pair(1024, 2), testing::Pair(1024, 0),
-                                             testing::Pair(2048, 1), testing::Pair(2048, 2), testing::Pair(2048, 0),
-                                             testing::Pair(4096, 32)));
+    EXPECT_THAT(caches,
+                testing::ElementsAre(testing::Pair(1024, 1), testing::Pair(1024, 2), testing::Pair(1024, 0),
+                                     testing::Pair(2048, 1), testing::Pair(2048, 2), testing::Pair(2048, 0),
+                                     testing::Pair(4096, 32)));
 }
 
 TEST(Replay, ASampleSaysHowFarOffItMayBe) {
-    const std::vector<std::string> words{"replay", (captured_box() / "trace").string(), "--order", "naive", "hilbert",
-                                         "--cache", "2K:64:1,2", "4K:128:2"};
+    const std::vector<std::string> words{
+        "replay",  (captured_box() / "trace").string(), "--order", "naive", "hilbert", "--cache", "2K:64:1,2",
+        "4K:128:2"};
     const auto sampled = [&](const std::string& rate, const std::string& seed) {
-        return results::from_csv(expect_done(words + std::vector<std::string>{"--sample", rate, "--seed", seed}).out, "stdout");
+        return results::from_csv(
+            expect_done(words + std::vector<std::string>{"--sample", rate, "--seed", seed}).out, "stdout");
     };
     const auto exact = results::from_csv(expect_done(words).out, "stdout"), some = sampled("4", "1");
     ASSERT_EQ(some.size(), 6u);
@@ -177,7 +188,8 @@ TEST(Replay, ASampleSaysHowFarOffItMayBe) {
 }
 
 TEST(Replay, WhatCannotBeSampledIsAUsageError) {
-    const std::vector<std::string> words{"replay", (captured_box() / "trace").string(), "--order", "naive", "--cache"};
+    const std::vector<std::string> words{"replay", (captured_box() / "trace").string(), "--order", "naive",
+                                         "--cache"};
     const auto refused = [&](const std::vector<std::string>& more, const std::vector<std::string>& parts) {
         expect_refused(bad_usage, words + more, parts);
     };
@@ -306,21 +318,24 @@ TEST(Damaged, TraceJsonIsRefusedByFieldAndFileName) {
 TEST(Replay, AMachineOfOneLevelMovesWhatThatCacheMoves) {
     const Scratch scratch;
     const std::string trace = (captured_box() / "trace").string();
-    const std::string rows = expect_done({"replay", trace, "--order", "naive", "hilbert:tile=16", "--machine", "paper-128k"}).out;
+    const std::string rows =
+        expect_done({"replay", trace, "--order", "naive", "hilbert:tile=16", "--machine", "paper-128k"}).out;
     EXPECT_THAT(rows, StartsWith("scene,ordering,parameters,machine,level,region,accesses"));
     const auto exact = results::from_csv(
-        expect_done({"replay", trace, "--order", "naive", "hilbert:tile=16", "--cache", "128K:128:8"}).out, "stdout");
+        expect_done({"replay", trace, "--order", "naive", "hilbert:tile=16", "--cache", "128K:128:8"}).out,
+        "stdout");
     for (const results::Row& row : exact)
-        EXPECT_THAT(rows, HasSubstr(fmt::format("box,{},\"{}\",paper-128k,L1,photons,{},{},{},", row.ordering, row.parameters,
-                                                *row.accesses, *row.accesses - *row.misses, *row.misses)));
+        EXPECT_THAT(rows, HasSubstr(fmt::format("box,{},\"{}\",paper-128k,L1,photons,{},{},{},", row.ordering,
+                                                row.parameters, *row.accesses, *row.accesses - *row.misses,
+                                                *row.misses)));
     expect_refused(bad_usage, {"replay", trace, "--order", "naive", "--machine", "nobody"}, {"nobody"});
 }
 
 TEST(Replay, BuffersThatFitTheChipAddNothingAndOthersAtLeastTheirBytes) {
     const std::string trace = (captured_box() / "trace").string();
     const auto rows = [&](const std::string& onchip) {
-        return results::from_csv(expect_done({"replay", trace, "--order", "naive", "hilbert", "--cache", "1K:128:8", "--buffers",
-                                              "--onchip", onchip})
+        return results::from_csv(expect_done({"replay", trace, "--order", "naive", "hilbert", "--cache",
+                                              "1K:128:8", "--buffers", "--onchip", onchip})
                                      .out,
                                  "stdout");
     };
@@ -328,8 +343,9 @@ TEST(Replay, BuffersThatFitTheChipAddNothingAndOthersAtLeastTheirBytes) {
     const auto small = rows("1K");
     EXPECT_EQ(small[0].buffer_traffic_bytes, 0u);  // naive holds nothing back
     EXPECT_GE(*small[1].buffer_traffic_bytes, *small[1].reorder_bytes);
-    EXPECT_EQ(small[1].net_benefit_bytes, static_cast<std::int64_t>(*small[0].traffic_bytes) -
-                                              static_cast<std::int64_t>(*small[1].traffic_bytes + *small[1].buffer_traffic_bytes));
+    EXPECT_EQ(small[1].net_benefit_bytes,
+              static_cast<std::int64_t>(*small[0].traffic_bytes) -
+                  static_cast<std::int64_t>(*small[1].traffic_bytes + *small[1].buffer_traffic_bytes));
 }
 
 }  // namespace

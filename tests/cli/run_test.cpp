@@ -1,5 +1,5 @@
 // `regather run`: a whole experiment, taken up where it stopped.
-#include "cli/experiment.h"
+#include "experiment/experiment.h"
 
 #include <nlohmann/json.hpp>
 
@@ -30,7 +30,8 @@ protected:
     std::vector<fs::path> parts() const {
         std::vector<fs::path> found;
         for (const auto& entry : fs::directory_iterator(folder_ / "parts"))
-            if (entry.path().extension() == ".csv" && !entry.path().filename().string().starts_with("compulsory"))
+            if (entry.path().extension() == ".csv" &&
+                !entry.path().filename().string().starts_with("compulsory"))
                 found.push_back(entry.path());
         std::sort(found.begin(), found.end());
         return found;
@@ -177,7 +178,8 @@ TEST_F(Run, WhatNoOrderChangesIsKeptAndUsedAgain) {
     const auto after = results::read_csv(folder_ / "rows.csv");
     ASSERT_EQ(after.size(), before.size());
     for (std::size_t r = 0; r < rows; ++r)
-        EXPECT_EQ(*after[r].misses, *before[r].misses + (before[r].parameters == lost[0].parameters ? 1000 : 0));
+        EXPECT_EQ(*after[r].misses,
+                  *before[r].misses + (before[r].parameters == lost[0].parameters ? 1000 : 0));
 }
 
 TEST_F(Run, DamagedRevisitsAreRefusedByName) {
@@ -233,10 +235,11 @@ TEST_F(Run, ASampleIsAskedForByKey) {
         EXPECT_LE(row.misses_low, row.misses);
         EXPECT_LE(row.misses, row.misses_high);
     }
-    const auto of_replay = results::from_csv(expect_done({"replay", (folder_ / "trace").string(), "--order", "naive", "--cache",
-                                                          "2K,4K:128:1", "--sample", "4", "--seed", "9"})
-                                                 .out,
-                                             "stdout");
+    const auto of_replay =
+        results::from_csv(expect_done({"replay", (folder_ / "trace").string(), "--order", "naive", "--cache",
+                                       "2K,4K:128:1", "--sample", "4", "--seed", "9"})
+                              .out,
+                          "stdout");
     EXPECT_EQ(all[0].misses, of_replay[0].misses);
     EXPECT_EQ(all[1].misses, of_replay[1].misses);
     // Another seed is another part.

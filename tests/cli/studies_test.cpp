@@ -1,4 +1,5 @@
-// The commands that say whether pictures can be trusted: reference, converge, stability; and heatmap, frames and layers of captures.
+// The commands that say whether pictures can be trusted: reference, converge, stability; and heatmap, frames
+// and layers of captures.
 #include "capture/image.h"
 #include "results/csv.h"
 #include "tests/cli/expect.h"
@@ -23,16 +24,20 @@ TEST(Reference, StoppedAndContinuedItIsTheSameToTheLastBit) {
     EXPECT_EQ(content(fs::path(once) / "reference.exr"), content(fs::path(twice) / "reference.exr"));
     EXPECT_EQ(content(fs::path(once) / "variance.exr"), content(fs::path(twice) / "variance.exr"));
     expect_refused(bad_usage, words(twice, "6") + Words{"--seed", "2"}, {"seed"});
-    expect_refused(bad_usage, {"reference", "room", "-o", twice, "--width", "8", "--height", "6", "--samples", "6"}, {});
+    expect_refused(bad_usage,
+                   {"reference", "room", "-o", twice, "--width", "8", "--height", "6", "--samples", "6"}, {});
 }
 
 TEST(Converge, WritesRowsChartsAndStripsAndGoesOnWhereItStopped) {
     const Scratch scratch;
     const std::string folder = (scratch / "out").string();
-    write(scratch / "ladder.csv", "ladder,mode,photons,k\nphotons,direct,500,20\nphotons,direct,2000,20\nphotons,direct,8000,20\n");
-    const Words words{"converge", "box", "-o", folder, "--seconds", "20", "--width", "12", "--seeds", "3", "--ladder",
-                      (scratch / "ladder.csv").string()};
-    const Words reference{"reference", "box", "-o", (scratch / "truth").string(), "--width", "12", "--height", "12", "--samples", "64"};
+    write(scratch / "ladder.csv",
+          "ladder,mode,photons,k\nphotons,direct,500,20\nphotons,direct,2000,20\nphotons,direct,8000,20\n");
+    const Words words{"converge", "box", "-o",      folder, "--seconds", "20",
+                      "--width",  "12",  "--seeds", "3",    "--ladder",  (scratch / "ladder.csv").string()};
+    const Words reference{"reference", "box", "-o",       (scratch / "truth").string(),
+                          "--width",   "12",  "--height", "12",
+                          "--samples", "64"};
     expect_done(reference);
     const Words against{"--reference", (scratch / "truth").string()};
     EXPECT_THAT(expect_done(words + against).out, HasSubstr("photons"));
@@ -43,13 +48,15 @@ TEST(Converge, WritesRowsChartsAndStripsAndGoesOnWhereItStopped) {
     EXPECT_FALSE(fs::is_empty(fs::path(folder) / "charts"));
     EXPECT_FALSE(fs::is_empty(fs::path(folder) / "strips"));
     expect_done(words + against);
-    EXPECT_EQ(content(fs::path(folder) / "converge.csv"), csv);  // seconds included: nothing was measured again
+    EXPECT_EQ(content(fs::path(folder) / "converge.csv"),
+              csv);  // seconds included: nothing was measured again
     expect_refused(bad_data, words + Words{"--reference", (scratch / "none").string()}, {"none"});
 }
 
 TEST(Stability, ReportsEachCaseAndTheExitCode) {
     const Scratch scratch;
-    const Outcome outcome = expect_done({"stability", "--quick", "--only", "maps", "-o", (scratch / "out").string()});
+    const Outcome outcome =
+        expect_done({"stability", "--quick", "--only", "maps", "-o", (scratch / "out").string()});
     EXPECT_THAT(outcome.out, HasSubstr("k = 1"));
     const auto rows = results::read_csv<results::StabilityRow>(scratch / "out" / "stability.csv");
     EXPECT_GE(rows.size(), 10u);
@@ -59,33 +66,45 @@ TEST(Stability, ReportsEachCaseAndTheExitCode) {
 TEST(Heatmap, HoldsOneChannelAnOrderingWithTheReplaysBytes) {
     const Scratch scratch;
     const std::string trace = (captured_box() / "trace").string();
-    const Words words{"heatmap", trace, "--order", "naive", "hilbert", "--cache", "2K:64:2", "-o", (scratch / "out").string()};
+    const Words words{"heatmap", trace,     "--order",
+                      "naive",   "hilbert", "--cache",
+                      "2K:64:2", "-o",      (scratch / "out").string()};
     expect_done(words);
     EXPECT_TRUE(fs::exists(scratch / "out" / "traffic.exr"));
     EXPECT_TRUE(fs::exists(scratch / "out" / "traffic.png"));
     expect_refused(bad_usage, words, {"traffic.exr"});
-    expect_refused(bad_usage, {"heatmap", trace, "--cache", "2K,4K:64:2", "-o", (scratch / "two").string()}, {"one cache"});
+    expect_refused(bad_usage, {"heatmap", trace, "--cache", "2K,4K:64:2", "-o", (scratch / "two").string()},
+                   {"one cache"});
 }
 
 TEST(Frames, EachHasItsFolderAndTheRowsSayWhich) {
     const Scratch scratch;
-    const Words small{"--width", "8", "--height", "8", "--gather-rays", "4", "--photons", "2000", "--caustic-photons", "500"};
+    const Words small{"--width",   "8",    "--height",          "8",  "--gather-rays", "4",
+                      "--photons", "2000", "--caustic-photons", "500"};
     const std::string folder = (scratch / "out").string();
-    EXPECT_THAT(expect_done(Words{"capture", "cornell", "-o", folder, "--frames", "0:30:15"} + small).out, HasSubstr("frame 15"));
+    EXPECT_THAT(expect_done(Words{"capture", "cornell", "-o", folder, "--frames", "0:30:15"} + small).out,
+                HasSubstr("frame 15"));
     for (const std::uint32_t frame : {0u, 15u})
-        EXPECT_EQ(trace::TraceReader(fs::path(folder) / (frame == 0 ? "frame-0000" : "frame-0015") / "trace").info().frame, frame);
-    EXPECT_NE(content(fs::path(folder) / "frame-0000" / "image.exr"), content(fs::path(folder) / "frame-0015" / "image.exr"));
-    expect_refused(bad_usage, Words{"capture", "cornell", "-o", folder + "2", "--frames", "0:99"} + small, {"--frames", "0:99"});
-    expect_refused(bad_usage, Words{"capture", "box", "-o", folder + "2", "--frames", "0"} + small, {"no camera path"});
+        EXPECT_EQ(trace::TraceReader(fs::path(folder) / (frame == 0 ? "frame-0000" : "frame-0015") / "trace")
+                      .info()
+                      .frame,
+                  frame);
+    EXPECT_NE(content(fs::path(folder) / "frame-0000" / "image.exr"),
+              content(fs::path(folder) / "frame-0015" / "image.exr"));
+    expect_refused(bad_usage, Words{"capture", "cornell", "-o", folder + "2", "--frames", "0:99"} + small,
+                   {"--frames", "0:99"});
+    expect_refused(bad_usage, Words{"capture", "box", "-o", folder + "2", "--frames", "0"} + small,
+                   {"no camera path"});
     EXPECT_FALSE(fs::exists(folder + "2"));
 }
 
 TEST(CausticMap, HasATraceOfItsOwnThatIsReplayedAsAnyOther) {
     const Scratch scratch;
     const std::string folder = (scratch / "out").string();
-    expect_done({"capture", "caustics", "-o", folder, "--width", "12", "--height", "8", "--gather-rays", "4", "--photons", "2000",
-                 "--caustic-photons", "3000", "--samples", "2"});
-    const auto rows = results::from_csv(expect_done({"replay", folder + "/caustic-trace", "--order", "naive", "hilbert"}).out, "stdout");
+    expect_done({"capture", "caustics", "-o", folder, "--width", "12", "--height", "8", "--gather-rays", "4",
+                 "--photons", "2000", "--caustic-photons", "3000", "--samples", "2"});
+    const auto rows = results::from_csv(
+        expect_done({"replay", folder + "/caustic-trace", "--order", "naive", "hilbert"}).out, "stdout");
     ASSERT_EQ(rows.size(), 2u);
     EXPECT_EQ(rows[0].structure, "left-balanced-kd caustic");
     EXPECT_THAT(expect_done({"info", folder + "/caustic-trace"}).out, HasSubstr("caustic"));

@@ -6,7 +6,8 @@ namespace {
 
 using testing::HasSubstr;
 
-const char* const subcommands[] = {"scenes", "capture", "walk", "replay", "detail", "race", "cachesim", "chart", "run", "info"};
+const char* const subcommands[] = {"scenes", "capture",  "walk",  "replay", "detail",
+                                   "race",   "cachesim", "chart", "run",    "info"};
 
 TEST(Usage, HelpOfEverySubcommandShowsAnExample) {
     const std::string all = expect_done({"--help"}).out;

@@ -49,9 +49,10 @@ TEST(PixelTraffic, OfAllPixelsTogetherIsTheReplays) {
     for (std::uint32_t q = 0; q < 500; ++q) pixels[q] = (q * 7) % 50;
     const std::vector<std::uint64_t> bytes = traffic(searched, order, pixels, 50);
     const ReplayConfig config{{cache}};
-    const Replayed replayed =
-        replay(searched.walks(), HeapLayout{}, order, config, count_revisits(searched.walks(), HeapLayout{}, config));
-    EXPECT_EQ(std::accumulate(bytes.begin(), bytes.end(), std::uint64_t{0}), replayed.caches[0].traffic_bytes);
+    const Replayed replayed = replay(searched.walks(), HeapLayout{}, order, config,
+                                     count_revisits(searched.walks(), HeapLayout{}, config));
+    EXPECT_EQ(std::accumulate(bytes.begin(), bytes.end(), std::uint64_t{0}),
+              replayed.caches[0].traffic_bytes);
 }
 
 TEST(PixelTraffic, OfAPixelOutsideTheImageIsRefused) {

@@ -37,8 +37,9 @@ TEST(Replay, MissesAreThoseOfSearchingAgainInThatOrderThroughAListOfLines) {
     const Searched traced(3000, 300, 20);
     for (const std::uint64_t seed : {1u, 2u}) {
         const std::vector<std::uint32_t> order = shuffled_queries(300, seed);
-        for (const cachesim::CacheConfig& cache : {cachesim::CacheConfig{4096, 128, 8}, cachesim::CacheConfig{2048, 64, 1},
-                                                   cachesim::CacheConfig{1024, 16, 4}, cachesim::CacheConfig{8192, 128, 0}}) {
+        for (const cachesim::CacheConfig& cache :
+             {cachesim::CacheConfig{4096, 128, 8}, cachesim::CacheConfig{2048, 64, 1},
+              cachesim::CacheConfig{1024, 16, 4}, cachesim::CacheConfig{8192, 128, 0}}) {
             const auto lines = traced.lines_of(order, cache.line_bytes);
             const std::uint64_t sets = cache.sets();
             const std::size_t ways = cache.ways == 0 ? cache.size_bytes / cache.line_bytes : cache.ways;
@@ -65,7 +66,8 @@ TEST(Replay, NodesOfThreePhotonsOn64ByteLinesAreThoseDrawnByHand) {
 TEST(Replay, ACacheDoesNotKnowOfTheOthers) {
     const Searched traced(2000, 200, 10);
     const std::vector<std::uint32_t> order = shuffled_queries(200, 4);
-    const std::vector<cachesim::CacheConfig> caches{{4096, 128, 8}, {2048, 64, 2}, {16384, 128, 0}, {4096, 128, 1}};
+    const std::vector<cachesim::CacheConfig> caches{
+        {4096, 128, 8}, {2048, 64, 2}, {16384, 128, 0}, {4096, 128, 1}};
     const Replayed together = replay(traced.walks(), {}, order, caches);
     for (std::size_t i = 0; i < caches.size(); ++i)
         EXPECT_EQ(replay(traced.walks(), {}, order, std::span(caches).subspan(i, 1)).caches[0].misses,
@@ -79,7 +81,8 @@ TEST(Replay, WhatIsAskedForDoesNotDependOnTheOrderAndCompulsoryTrafficIsTheFloor
     const std::uint64_t floor = compulsory_bytes(touched, {}, 128);
     std::set<std::uint64_t> accesses;
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
-        const Replayed replayed = replay(traced.walks(), {}, shuffled_queries(400, seed), std::span(&cache, 1));
+        const Replayed replayed =
+            replay(traced.walks(), {}, shuffled_queries(400, seed), std::span(&cache, 1));
         accesses.insert(replayed.caches[0].accesses);
         EXPECT_EQ(replayed.visited_nodes, traced.recording.visited_nodes);
         EXPECT_GE(replayed.caches[0].traffic_bytes, floor);
@@ -88,7 +91,10 @@ TEST(Replay, WhatIsAskedForDoesNotDependOnTheOrderAndCompulsoryTrafficIsTheFloor
     const auto lines = traced.lines_of(shuffled_queries(400, 1), 128);
     EXPECT_EQ(floor, std::set<std::uint64_t>(lines.begin(), lines.end()).size() * 128);
     const cachesim::CacheConfig everything{1 << 20, 128, 0};
-    EXPECT_EQ(replay(traced.walks(), {}, shuffled_queries(400, 1), std::span(&everything, 1)).caches[0].traffic_bytes, floor);
+    EXPECT_EQ(replay(traced.walks(), {}, shuffled_queries(400, 1), std::span(&everything, 1))
+                  .caches[0]
+                  .traffic_bytes,
+              floor);
 }
 
 TEST(Replay, MoreWaysAtEqualSetsNeverMissMore) {
@@ -96,15 +102,16 @@ TEST(Replay, MoreWaysAtEqualSetsNeverMissMore) {
     std::uint64_t before = ~std::uint64_t{0};
     for (const std::uint32_t ways : {1u, 2u, 4u, 8u, 16u}) {
         const cachesim::CacheConfig cache{16 * ways * 128, 128, ways};
-        const std::uint64_t misses = replay(traced.walks(), {}, shuffled_queries(300, 1), std::span(&cache, 1)).caches[0].misses;
+        const std::uint64_t misses =
+            replay(traced.walks(), {}, shuffled_queries(300, 1), std::span(&cache, 1)).caches[0].misses;
         EXPECT_LE(misses, before);
         before = misses;
     }
 }
 
-const std::vector<cachesim::CacheConfig> served{{4096, 128, 8},    {2048, 64, 2},  {2048, 128, 1},  {1024, 16, 32},
-                                                {65536, 64, 4},    {3072, 64, 3},  {16384, 128, 0}, {3000, 8, 0},
-                                                {1 << 20, 128, 16}, {8192, 128, 4}, {64, 64, 1},  {512, 128, 1}};
+const std::vector<cachesim::CacheConfig> served{
+    {4096, 128, 8},  {2048, 64, 2}, {2048, 128, 1},     {1024, 16, 32}, {65536, 64, 4}, {3072, 64, 3},
+    {16384, 128, 0}, {3000, 8, 0},  {1 << 20, 128, 16}, {8192, 128, 4}, {64, 64, 1},    {512, 128, 1}};
 
 TEST(Replay, ClassesAreHillsOfEveryAccess) {
     const Searched traced(3000, 150, 20);
@@ -119,7 +126,8 @@ TEST(Replay, ClassesAreHillsOfEveryAccess) {
         std::set<std::uint64_t> met;
         MissClasses expected;
         for (const std::uint64_t line : traced.lines_of(order, cache.line_bytes)) {
-            const bool missed = list.misses(line), full_missed = full.misses(line), first = met.insert(line).second;
+            const bool missed = list.misses(line), full_missed = full.misses(line),
+                       first = met.insert(line).second;
             if (missed) ++(first ? expected.compulsory : full_missed ? expected.capacity : expected.conflict);
         }
         const CacheTraffic& traffic = replayed.caches[c];
@@ -128,7 +136,9 @@ TEST(Replay, ClassesAreHillsOfEveryAccess) {
         EXPECT_EQ(traffic.classes->capacity, expected.capacity) << c;
         EXPECT_EQ(traffic.classes->conflict, expected.conflict) << c;
         EXPECT_EQ(traffic.classes->compulsory, met.size()) << c;
-        EXPECT_EQ(traffic.classes->compulsory + traffic.classes->capacity + traffic.classes->conflict, traffic.misses) << c;
+        EXPECT_EQ(traffic.classes->compulsory + traffic.classes->capacity + traffic.classes->conflict,
+                  traffic.misses)
+            << c;
         if (cache.ways == 0) {
             EXPECT_EQ(traffic.classes->conflict, 0u);
         }
@@ -153,8 +163,8 @@ TEST(Replay, ClassesDoNotChangeTheMisses) {
 TEST(Replay, CachesOfMoreWaysThanAFamilyServesAgreeWithAList) {
     const Searched traced(3000, 150, 20);
     const std::vector<std::uint32_t> order = shuffled_queries(150, 3);
-    const std::vector<cachesim::CacheConfig> caches{{4 * 40 * 128, 128, 40}, {2 * 33 * 64, 64, 33}, {33 * 128, 128, 33},
-                                                    {4096, 128, 8}};
+    const std::vector<cachesim::CacheConfig> caches{
+        {4 * 40 * 128, 128, 40}, {2 * 33 * 64, 64, 33}, {33 * 128, 128, 33}, {4096, 128, 8}};
     EXPECT_FALSE(family_serves(caches[0]));
     EXPECT_TRUE(family_serves(caches[3]));
     EXPECT_TRUE(family_serves({4096, 128, 32}));
@@ -178,8 +188,9 @@ TEST(Replay, RevisitsOfMoreCachesServeFewer) {
     const std::vector<std::uint32_t> order = shuffled_queries(200, 5);
     const WalkStore walks = traced.walks();
     const Revisits all = count_revisits(walks, {}, {served, true});
-    for (const cachesim::CacheConfig& cache : {cachesim::CacheConfig{4096, 128, 8}, cachesim::CacheConfig{1024, 64, 1},
-                                               cachesim::CacheConfig{128 * 16, 16, 0}}) {
+    for (const cachesim::CacheConfig& cache :
+         {cachesim::CacheConfig{4096, 128, 8}, cachesim::CacheConfig{1024, 64, 1},
+          cachesim::CacheConfig{128 * 16, 16, 0}}) {
         for (const bool classes : {false, true}) {
             const ReplayConfig config{{cache}, classes};
             EXPECT_TRUE(serve(all, config));
@@ -200,12 +211,12 @@ TEST(Replay, RevisitsOfOtherCachesDoNotServe) {
         return serve(found, ReplayConfig{.caches = {cache}, .classes = classes});
     };
     EXPECT_TRUE(serves({4096, 128, 8}, false));
-    EXPECT_TRUE(serves({512, 128, 1}, false));       // 4 sets, too
+    EXPECT_TRUE(serves({512, 128, 1}, false));          // 4 sets, too
     EXPECT_TRUE(serves({4 * 40 * 64, 64, 40}, false));  // simulated for itself
-    EXPECT_FALSE(serves({4096, 128, 8}, true));      // no classes
-    EXPECT_FALSE(serves({8192, 128, 16}, false));    // more ways
-    EXPECT_FALSE(serves({8192, 128, 8}, false));     // other sets
-    EXPECT_FALSE(serves({4096, 32, 0}, false));      // another line
+    EXPECT_FALSE(serves({4096, 128, 8}, true));         // no classes
+    EXPECT_FALSE(serves({8192, 128, 16}, false));       // more ways
+    EXPECT_FALSE(serves({8192, 128, 8}, false));        // other sets
+    EXPECT_FALSE(serves({4096, 32, 0}, false));         // another line
     EXPECT_FALSE(serve({}, {.caches = caches, .classes = false}));
     EXPECT_TRUE(serve({}, {}));
 }

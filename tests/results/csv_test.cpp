@@ -165,12 +165,12 @@ TYPED_TEST(CsvOf, HasAColumnForEachField) {
 
 TYPED_TEST(CsvOf, IsToldByItsHeader) {
     using R = TypeParam;
-    const RowKind kind = std::is_same_v<R, DetailRow>     ? RowKind::detail
-                         : std::is_same_v<R, TimelineRow> ? RowKind::timeline
-                         : std::is_same_v<R, SamplingRow> ? RowKind::sampling
+    const RowKind kind = std::is_same_v<R, DetailRow>        ? RowKind::detail
+                         : std::is_same_v<R, TimelineRow>    ? RowKind::timeline
+                         : std::is_same_v<R, SamplingRow>    ? RowKind::sampling
                          : std::is_same_v<R, ConvergenceRow> ? RowKind::convergence
                          : std::is_same_v<R, StabilityRow>   ? RowKind::stability
-                                                          : RowKind::measurement;
+                                                             : RowKind::measurement;
     EXPECT_EQ(row_kind(to_csv<R>({}), "mine.csv"), kind);
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "results/chart.h"
+#include "charts/chart.h"
 
 namespace regather::results {
 

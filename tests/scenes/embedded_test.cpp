@@ -55,13 +55,14 @@ TEST(Embedded, TheCameraIsInsideTheScenesBounds) {
 bool is_in_one_face(const Scene& scene, const Bounds3& bounds, const Corners& t) {
     for (int axis = 0; axis < 3; ++axis)
         for (const float side : {bounds.min[axis], bounds.max[axis]})
-            if (scene.vertices[t[0]][axis] == side && scene.vertices[t[1]][axis] == side && scene.vertices[t[2]][axis] == side)
+            if (scene.vertices[t[0]][axis] == side && scene.vertices[t[1]][axis] == side &&
+                scene.vertices[t[2]][axis] == side)
                 return true;
     return false;
 }
 
-// Walls, floor and ceiling come first in the files: the triangles whose corners lie in one face of the bounding box, up to the
-// first that does not.
+// Walls, floor and ceiling come first in the files: the triangles whose corners lie in one face of the
+// bounding box, up to the first that does not.
 std::vector<Corners> shell(const Scene& scene) {
     const Bounds3 bounds = scene.bounds();
     std::vector<Corners> walls;
@@ -73,9 +74,10 @@ std::vector<Corners> shell(const Scene& scene) {
 }
 
 TEST(Embedded, TheWallsAreWatertightAndFaceInward) {
-    const std::pair<const char*, double> volumes[] = {
-        {"room", 10.0 * 8 * 3}, {"box", 2.0 * 2 * 2},       {"furnace", 1},           {"house", 12.0 * 9 * 2.7},
-        {"arena", 24.0 * 18 * 6}, {"caustics", 4.0 * 4 * 2.6}, {"prism", 5.0 * 5 * 3}};
+    const std::pair<const char*, double> volumes[] = {{"room", 10.0 * 8 * 3},   {"box", 2.0 * 2 * 2},
+                                                      {"furnace", 1},           {"house", 12.0 * 9 * 2.7},
+                                                      {"arena", 24.0 * 18 * 6}, {"caustics", 4.0 * 4 * 2.6},
+                                                      {"prism", 5.0 * 5 * 3}};
     for (const auto& [name, expected] : volumes) {
         const Scene scene = load_scene(name);
         const std::vector<Corners> walls = shell(scene);
@@ -129,7 +131,8 @@ TEST(Embedded, TheDemonstrationScenesAreOfMediumComplexityWithEveryKindOfMateria
         EXPECT_GE(scene.triangles.size(), 10'000u) << name;
         EXPECT_LE(scene.triangles.size(), 100'000u) << name;
         std::vector<bool> kinds(4);
-        for (const std::uint32_t m : scene.triangle_material) kinds[static_cast<std::size_t>(scene.materials[m].kind)] = true;
+        for (const std::uint32_t m : scene.triangle_material)
+            kinds[static_cast<std::size_t>(scene.materials[m].kind)] = true;
         EXPECT_EQ(kinds, std::vector<bool>(4, true)) << name;
         EXPECT_FALSE(scene.lights.empty()) << name;
         EXPECT_NE(scene.origin, "") << name;
@@ -157,7 +160,8 @@ TEST(Embedded, NoGlassOrWaterIsOpen) {
 }
 
 TEST(Embedded, TheCornellBoxHasTheMeasuredSizes) {
-    // The published millimetres: floor 552.8 by 559.2 (549.6 at the back), ceiling at 548.8, 556.0 wide; blocks of 165 and 330.
+    // The published millimetres: floor 552.8 by 559.2 (549.6 at the back), ceiling at 548.8, 556.0 wide;
+    // blocks of 165 and 330.
     const Scene cornell = load_scene("cornell");
     const Bounds3 bounds = cornell.bounds();
     EXPECT_EQ(bounds.min, (Vec3{-0.556f, 0, 0}));
@@ -167,7 +171,8 @@ TEST(Embedded, TheCornellBoxHasTheMeasuredSizes) {
     EXPECT_NEAR(light.area(), 0.13 * 0.105, 1e-8);
     EXPECT_EQ(light.normal(), (Vec3{0, 0, -1}));
     EXPECT_EQ(cornell.camera.position, (Vec3{-0.278f, -0.8f, 0.273f}));
-    EXPECT_NEAR(cornell.camera.vertical_fov_degrees, 2 * std::atan(0.025 / 2 / 0.035) * 180 / 3.14159265358979, 1e-3);
+    EXPECT_NEAR(cornell.camera.vertical_fov_degrees,
+                2 * std::atan(0.025 / 2 / 0.035) * 180 / 3.14159265358979, 1e-3);
     // Every triangle faces the inside of the box, or away from a block's middle.
     std::size_t inward = 0;
     for (std::size_t t = 0; t < 5 * 2 * 24 * 24; ++t) {

@@ -134,8 +134,10 @@ TEST(LoaderRefuses, UnknownKeysAndNamesTheNearest) {
         {{.shapes = R"({"typ": "sphere", "material": "white"})"},
          "shapes[0].typ: found unknown key \"typ\", expected \"type\" (keys of a shape: type, material, "
          "corner, edge_u, "
-         "edge_v, divide, corners, min, max, rotate_z_degrees, center, radius, segments, from, to, radius_to, "
-         "smooth, profile, axis, tube, tube_segments, size, amplitude, wavelength, phase_degrees, depth, cells, "
+         "edge_v, divide, corners, min, max, rotate_z_degrees, center, radius, segments, from, to, "
+         "radius_to, "
+         "smooth, profile, axis, tube, tube_segments, size, amplitude, wavelength, phase_degrees, depth, "
+         "cells, "
          "file, materials, up_axis, scale, translate, object, at)"},
     });
 }
@@ -147,7 +149,8 @@ TEST(LoaderRefuses, MissingKeys) {
         {{.shapes = R"({"type": "sphere", "material": "white", "center": [0, 0, 0], "segments": 9})"},
          "shapes[0].radius: found nothing, expected a length [m], above 0 and at most 1e6"},
         {{.shapes = R"({"material": "white"})"},
-         "shapes[0].type: found nothing, expected \"quad\", \"patch\", \"box\", \"sphere\", \"cylinder\", \"lathe\", \"torus\", \"ripple\", \"mesh\" or \"instances\""},
+         "shapes[0].type: found nothing, expected \"quad\", \"patch\", \"box\", \"sphere\", \"cylinder\", "
+         "\"lathe\", \"torus\", \"ripple\", \"mesh\" or \"instances\""},
         {{.materials = R"("white": {"diffuse": [0, 0, 0]})"},
          "materials.white.kind: found nothing, expected \"diffuse\", \"glossy\", \"mirror\" or "
          "\"dielectric\""},
@@ -170,7 +173,8 @@ TEST(LoaderRefuses, WrongTypes) {
         {{.shapes = quad("[0, true, 0]", "[1, 0, 0]", "[0, 1, 0]")},
          "shapes[0].corner[1]: found true, expected three coordinates [m], each from -1e12 to 1e12"},
         {{.shapes = R"({"type": 4})"},
-         "shapes[0].type: found 4, expected \"quad\", \"patch\", \"box\", \"sphere\", \"cylinder\", \"lathe\", \"torus\", \"ripple\", \"mesh\" or \"instances\""},
+         "shapes[0].type: found 4, expected \"quad\", \"patch\", \"box\", \"sphere\", \"cylinder\", "
+         "\"lathe\", \"torus\", \"ripple\", \"mesh\" or \"instances\""},
         {{.shapes = sphere("\"1\"", "9")},
          "shapes[0].radius: found \"1\", expected a length [m], above 0 and at most 1e6"},
     });
@@ -238,8 +242,9 @@ TEST(LoaderRefuses, ShapesWithoutAreaOrVolume) {
          "shapes[0].radius: found 0, expected a length [m], above 0 and at most 1e6"},
         {{.shapes = sphere("-1", "9")},
          "shapes[0].radius: found -1, expected a length [m], above 0 and at most 1e6"},
-        {{.shapes = quad("[0, 0, 0]", "[1, 0, 0]", "[0, 1, 0]") +
-                    R"(, {"type": "sphere", "material": "white", "center": [9e5, 9e5, 9e5], "radius": 0.001, "segments": 3})"},
+        {{.shapes =
+              quad("[0, 0, 0]", "[1, 0, 0]", "[0, 1, 0]") +
+              R"(, {"type": "sphere", "material": "white", "center": [9e5, 9e5, 9e5], "radius": 0.001, "segments": 3})"},
          "shapes[1]: found 6 of 6 triangles without area in 32-bit floats, expected a larger or less divided "
          "shape, or one nearer to the others"},
     });

@@ -29,8 +29,7 @@ TEST(Needs, ADiffuseSceneWithoutLightsNeedsNothing) {
     const Needs needs = needs_of(parse(SceneText{.materials = all_materials}.text()));
     for (const Need* need : needs.list()) EXPECT_FALSE(need->needed) << need->part;
     EXPECT_EQ(needs.shadow_rays.reason, "The scene has no light of area.");
-    EXPECT_EQ(needs.specular_rays.reason,
-              "No triangle is a mirror or a dielectric.");
+    EXPECT_EQ(needs.specular_rays.reason, "No triangle is a mirror or a dielectric.");
     EXPECT_EQ(needs.caustics.reason, "No triangle is a mirror or a dielectric: no path makes a caustic.");
     EXPECT_EQ(needs.camera_path.reason, "The camera stands still.");
     EXPECT_EQ(needs.glossy_lobes.reason, "No triangle is glossy.");
@@ -57,7 +56,10 @@ TEST(Needs, MirrorsAndDielectricsNeedSpecularRays) {
 
 TEST(Needs, ACausticNeedsALightAndASpecularSurface) {
     const auto caustics = [](const std::string& lights, const std::string& material) {
-        return needs_of(parse(SceneText{.materials = all_materials, .shapes = sphere(material), .lights = lights}.text())).caustics;
+        return needs_of(
+                   parse(SceneText{.materials = all_materials, .shapes = sphere(material), .lights = lights}
+                             .text()))
+            .caustics;
     };
     EXPECT_TRUE(caustics(light, "glass").needed);
     EXPECT_TRUE(caustics(light, "silver").needed);

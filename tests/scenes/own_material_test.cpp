@@ -3,8 +3,8 @@
 
 #include <numbers>
 
+#include "meshes/obj.h"
 #include "scenes/mesh_material.h"
-#include "scenes/obj.h"
 #include "tests/scenes/scene_text.h"
 
 namespace regather::scenes {

@@ -39,7 +39,8 @@ bool same(const std::vector<Neighbor>& a, const std::vector<Neighbor>& b) {
     });
 }
 
-std::vector<Neighbor> search(std::span<const Photon> heap, Vec3 point, std::uint32_t k, float radius = infinite) {
+std::vector<Neighbor> search(std::span<const Photon> heap, Vec3 point, std::uint32_t k,
+                             float radius = infinite) {
     NearestSet found(k, radius);
     nearest(PhotonKd(heap), point, found);
     return found.nearest_first();
@@ -82,12 +83,16 @@ TEST_P(NearestInCloud, EqualsFlannsExactSearchAndBruteForce) {
         index.knnSearch(query, indices, distances, k, exact);
         ASSERT_EQ(distances[0].size(), ours.size());
         // Of photons at equal distance FLANN may name another; the distances agree to rounding.
-        for (std::size_t i = 0; i < k; ++i) ASSERT_NEAR(distances[0][i], ours[i].distance2, 1e-6f * ours[i].distance2 + 1e-12f);
+        for (std::size_t i = 0; i < k; ++i)
+            ASSERT_NEAR(distances[0][i], ours[i].distance2, 1e-6f * ours[i].distance2 + 1e-12f);
     }
 }
-std::vector<trace::Photon> uniform_cloud(std::size_t count) { return uniform_photons(count); }
+std::vector<trace::Photon> uniform_cloud(std::size_t count) {
+    return uniform_photons(count);
+}
 INSTANTIATE_TEST_SUITE_P(Clouds, NearestInCloud,
-                         testing::Values(uniform_cloud, clustered_photons, coplanar_photons, duplicate_photons));
+                         testing::Values(uniform_cloud, clustered_photons, coplanar_photons,
+                                         duplicate_photons));
 
 TEST(Nearest, KAboveThePhotonCountFindsAll) {
     const std::vector<Photon> heap = left_balanced(uniform_photons(7));
@@ -136,8 +141,8 @@ TEST(Nearest, TheDiscIsTheFarthestPhotonsWhenFullElseTheSearchRadius) {
 }
 
 TEST(Nearest, ItVisitsOnlyABranchWhenOneIsEnough) {
-    // 3 | 1 5 | 0 2 4 6 on a line; the nearest one of 0: 3, 1, 0 on the way down; then 1's far child 2 is 1 away from the
-    // plane at 1 > 0, and the root's at 3: nothing else is entered.
+    // 3 | 1 5 | 0 2 4 6 on a line; the nearest one of 0: 3, 1, 0 on the way down; then 1's far child 2 is 1
+    // away from the plane at 1 > 0, and the root's at 3: nothing else is entered.
     const std::vector<Photon> heap = left_balanced(photons_on_a_line({0, 1, 2, 3, 4, 5, 6}));
     struct Visits {
         std::vector<std::uint32_t> nodes;

@@ -76,7 +76,9 @@ TEST(PhotonKd, PhotonsThatAreNotFiniteAreRefusedByNumber) {
     }
 }
 
-TEST(PhotonKd, NoPhotonsMakeAnEmptyTree) { EXPECT_TRUE(left_balanced({}).empty()); }
+TEST(PhotonKd, NoPhotonsMakeAnEmptyTree) {
+    EXPECT_TRUE(left_balanced({}).empty());
+}
 
 }  // namespace
 }  // namespace regather::spatial

@@ -36,8 +36,9 @@ struct RecordedSearch {
 };
 
 TEST(Walk, TheBitsOfASmallSearchAreThoseDrawnByHand) {
-    // Tree 3 | 1 5 | 0 2 4 6; the two nearest of 0.4. Near: 3 -> lower (0), 1 -> lower (0), leaf 0. Far: 1's other child
-    // 2 is 0.6 from the plane, bound 0.6: entered (1); then the root's at 2.6: not (0). Bits 0 0 1 0, from the top of the byte.
+    // Tree 3 | 1 5 | 0 2 4 6; the two nearest of 0.4. Near: 3 -> lower (0), 1 -> lower (0), leaf 0. Far: 1's
+    // other child 2 is 0.6 from the plane, bound 0.6: entered (1); then the root's at 2.6: not (0). Bits 0 0
+    // 1 0, from the top of the byte.
     const std::vector<Photon> heap = left_balanced(photons_on_a_line({0, 1, 2, 3, 4, 5, 6}));
     NearestSet found(2);
     RecordedSearch search;
@@ -115,7 +116,8 @@ TEST(Walk, DamagedWalksAreToldApart) {
     EXPECT_EQ(decoder.decode(walk).fault, WalkFault::bytes_left_over);
     EXPECT_EQ(WalkDecoder(0).decode(walk).fault, WalkFault::bytes_left_over);
     // Two photons, lower child first (0), then its sibling, which does not exist, entered (1).
-    EXPECT_EQ(WalkDecoder(2).decode(std::vector<std::uint8_t>{0b0100'0000}).fault, WalkFault::enters_missing_child);
+    EXPECT_EQ(WalkDecoder(2).decode(std::vector<std::uint8_t>{0b0100'0000}).fault,
+              WalkFault::enters_missing_child);
 }
 
 TEST(Walk, ArbitraryBytesNeverLeaveTheTree) {
@@ -131,7 +133,8 @@ TEST(Walk, RecordingIsTheSameOnAnyNumberOfThreads) {
     const std::vector<Photon> heap = left_balanced(uniform_photons(3000));
     std::vector<Vec3> points;
     Numbers numbers(5);
-    for (int i = 0; i < 20000; ++i) points.push_back({numbers.uniform(), numbers.uniform(), numbers.uniform()});
+    for (int i = 0; i < 20000; ++i)
+        points.push_back({numbers.uniform(), numbers.uniform(), numbers.uniform()});
     points[77].x = std::numeric_limits<float>::quiet_NaN();
     const Recording two = record_walks(PhotonKd(heap), points, 10, 1);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);

@@ -44,8 +44,8 @@ TEST(ParseLadder, EmptyCellsTakeTheDefaults) {
 }
 
 TEST(ParseLadder, RefusesWhatNoRendererCanDo) {
-    for (const char* text : {"ladder,k\nmine,0\n", "ladder,mode\nmine,fast\n", "ladder\n", "k\n5\n", "ladder,radius\nmine,0\n",
-                             "ladder,k\n,5\n"})
+    for (const char* text : {"ladder,k\nmine,0\n", "ladder,mode\nmine,fast\n", "ladder\n", "k\n5\n",
+                             "ladder,radius\nmine,0\n", "ladder,k\n,5\n"})
         EXPECT_THROW(parse_ladder(text, "l.csv"), trace::DataError) << text;
 }
 

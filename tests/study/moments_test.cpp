@@ -17,8 +17,8 @@ Image flat(float value, std::uint32_t pixels = 4) {
 }
 
 TEST(Moments, TwoImagesByHand) {
-    // Errors 3 and 1 everywhere: mean squared error 5, product 3, variance (3 - 1)^2 / 2 = 2; the reference's variance 0.5
-    // is in the products, not in the variance.
+    // Errors 3 and 1 everywhere: mean squared error 5, product 3, variance (3 - 1)^2 / 2 = 2; the reference's
+    // variance 0.5 is in the products, not in the variance.
     const Truth truth{flat(1), std::vector<trace::Vec3>(4, {0.5f, 0.5f, 0.5f}), 1};
     const std::vector<Image> images{flat(4), flat(2)};
     const Moments found = moments(images, truth);
@@ -30,7 +30,8 @@ TEST(Moments, TwoImagesByHand) {
 }
 
 TEST(Moments, TheJackknifeByHand) {
-    // Errors 1, 2, 3: pairs without the first 6, without the second 3, without the third 2; their mean is 11 / 3.
+    // Errors 1, 2, 3: pairs without the first 6, without the second 3, without the third 2; their mean is 11
+    // / 3.
     const Truth truth{flat(0), {}, 1};
     const std::vector<Image> images{flat(1), flat(2), flat(3)};
     const Moments found = moments(images, truth);
@@ -71,7 +72,8 @@ TEST(Moments, EstimatesAreWithoutBiasUnderNoise) {
             Image image = flat(0, pixels);
             for (trace::Vec3& pixel : image.pixels)
                 for (int c = 0; c < 3; ++c)
-                    pixel[c] = static_cast<float>(shift + width * (static_cast<double>(sampler.uniform()) - 0.5));
+                    pixel[c] =
+                        static_cast<float>(shift + width * (static_cast<double>(sampler.uniform()) - 0.5));
             return image;
         };
         const auto v = static_cast<float>(reference_noise * reference_noise / 12);

@@ -91,7 +91,8 @@ TEST(TraceFolder, OneChangedByteIsRefusedByTheColumnsName) {
     file.seekp(-1, std::ios::end);
     file.put('\x0a');
     file.close();
-    const std::string message = refusal(scratch / "t", [](TraceReader& r) { r.column<std::uint8_t>("walk"); });
+    const std::string message =
+        refusal(scratch / "t", [](TraceReader& r) { r.column<std::uint8_t>("walk"); });
     EXPECT_NE(message.find("walk.npy: found checksum"), std::string::npos) << message;
     EXPECT_EQ(refusal(scratch / "t", [](TraceReader& r) { r.column<Vec3>("query_position"); }), "accepted");
 }
@@ -100,14 +101,16 @@ TEST(TraceFolder, AColumnOfAnotherLengthIsRefused) {
     const Scratch scratch;
     write_small(scratch / "t");
     write_column<std::uint8_t>(scratch / "t/walk.npy", std::vector<std::uint8_t>{7, 8});
-    const std::string message = refusal(scratch / "t", [](TraceReader& r) { r.column<std::uint8_t>("walk"); });
+    const std::string message =
+        refusal(scratch / "t", [](TraceReader& r) { r.column<std::uint8_t>("walk"); });
     EXPECT_NE(message.find("found 2 rows, expected 3"), std::string::npos) << message;
 }
 
 TEST(TraceFolder, AColumnThatWasLeftOutIsRefusedWithTheReason) {
     const Scratch scratch;
     write_small(scratch / "t");
-    const std::string message = refusal(scratch / "t", [](TraceReader& r) { r.column<Vec3>("query_direction"); });
+    const std::string message =
+        refusal(scratch / "t", [](TraceReader& r) { r.column<Vec3>("query_direction"); });
     EXPECT_NE(message.find("nobody asked"), std::string::npos) << message;
 }
 
@@ -118,11 +121,14 @@ TEST(TraceFolder, InconsistentJsonIsRefusedByField) {
         replace_in_file(scratch / "t/trace.json", from, to);
         return refusal(scratch / "t");
     };
-    EXPECT_NE(refused_after("\"regather_trace\": 1", "\"regather_trace\": 2").find("found version 2, expected 1"),
+    EXPECT_NE(
+        refused_after("\"regather_trace\": 1", "\"regather_trace\": 2").find("found version 2, expected 1"),
+        std::string::npos);
+    EXPECT_NE(refused_after("\"queries\": 2", "\"queries\": 3").find("queries: found 3, expected 2"),
               std::string::npos);
-    EXPECT_NE(refused_after("\"queries\": 2", "\"queries\": 3").find("queries: found 3, expected 2"), std::string::npos);
     EXPECT_NE(refused_after("\"queries\": 2", "\"queries\": -2").find("not negative"), std::string::npos);
-    EXPECT_NE(refused_after("\"photons\": 3", "\"photons\": \"x\"").find("photons: found \"x\""), std::string::npos);
+    EXPECT_NE(refused_after("\"photons\": 3", "\"photons\": \"x\"").find("photons: found \"x\""),
+              std::string::npos);
     EXPECT_NE(refused_after("\"seed\"", "\"sed\"").find("seed: found nothing"), std::string::npos);
     EXPECT_NE(refused_after("\"walk\"", "\"wlak\"").find("'wlak'"), std::string::npos);
     EXPECT_NE(refused_after("{", "").find("no valid JSON"), std::string::npos);

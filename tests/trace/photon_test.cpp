@@ -50,7 +50,8 @@ TEST(Photon, RgbeHasNoBiasOverManyPowers) {
 
 TEST(Photon, DirectionsComeBackWithin0_02Radians) {
     ASSERT_TRUE(rc::check([] {
-        const double z = *rc::gen::inRange(-1000, 1001) / 1000.0, phi = *rc::gen::inRange(0, 10000) * 6.283185307179586e-4;
+        const double z = *rc::gen::inRange(-1000, 1001) / 1000.0,
+                     phi = *rc::gen::inRange(0, 10000) * 6.283185307179586e-4;
         const double r = std::sqrt(1 - z * z);
         const Vec3 direction{static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)),
                              static_cast<float>(z)};
@@ -64,9 +65,11 @@ TEST(Photon, DirectionsComeBackWithin0_02Radians) {
 
 TEST(Photon, NormalsComeBackWithin0_034RadiansAndLeaveTheAxisAlone) {
     ASSERT_TRUE(rc::check([] {
-        const double z = *rc::gen::inRange(-1000, 1001) / 1000.0, phi = *rc::gen::inRange(0, 10000) * 6.283185307179586e-4;
+        const double z = *rc::gen::inRange(-1000, 1001) / 1000.0,
+                     phi = *rc::gen::inRange(0, 10000) * 6.283185307179586e-4;
         const double r = std::sqrt(1 - z * z);
-        const Vec3 normal{static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)), static_cast<float>(z)};
+        const Vec3 normal{static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)),
+                          static_cast<float>(z)};
         Photon photon;
         photon.flags = static_cast<std::uint16_t>(*rc::gen::inRange(0, 3));
         const int axis = photon.flags;
@@ -77,7 +80,8 @@ TEST(Photon, NormalsComeBackWithin0_034RadiansAndLeaveTheAxisAlone) {
 }
 
 TEST(Photon, NormalsAlongTheAxesAreExactAndNoNormalIsNone) {
-    for (const Vec3 normal : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}}) {
+    for (const Vec3 normal :
+         {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}}) {
         Photon photon;
         encode_normal(normal, photon);
         EXPECT_EQ(decode_normal(photon), normal);

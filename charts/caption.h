@@ -1,0 +1,13 @@
+// charts/caption.h -- the line under a chart's title: what is the same for all that is drawn.
+#pragma once
+#include <span>
+#include <string>
+
+#include "charts/series.h"
+
+namespace regather::results {
+
+/// `cache`: its shape, or empty where the cache does not matter.
+std::string caption(std::span<const Curve> curves, const std::string& cache);
+
+}  // namespace regather::results

@@ -1,0 +1,153 @@
+#include "charts/chart.h"
+
+#include <fmt/format.h>
+
+#include "charts/accuracy.h"
+#include "charts/bars.h"
+#include "charts/budget.h"
+#include "charts/convergence.h"
+#include "charts/depth.h"
+#include "charts/frames.h"
+#include "charts/gnuplot.h"
+#include "charts/stability.h"
+#include "charts/sweep.h"
+#include "charts/timeline.h"
+#include "trace/error.h"
+#include "trace/file.h"
+
+namespace regather::results {
+namespace {
+
+constexpr ChartKind kinds_table[] = {
+    {"traffic-by-tile", "Memory traffic by tile size", "at least 2 tile sizes", RowKind::measurement,
+     traffic_by_tile},
+    {"traffic-by-cache", "Memory traffic by cache size", "at least 2 cache sizes", RowKind::measurement,
+     traffic_by_cache},
+    {"cost-by-tile", "Cost of reordering by tile size", "at least 2 tile sizes", RowKind::measurement,
+     cost_by_tile},
+    {"cost-by-bins", "Cost of reordering by number of direction bins", "at least 2 numbers of bins",
+     RowKind::measurement, cost_by_bins},
+    {"misses-by-class", "Why lines are missed", "compulsory, capacity and conflict", RowKind::measurement,
+     misses_by_class},
+    {"net-benefit", "Best ordering by on-chip budget",
+     "at least 2 budgets, and buffer_traffic_bytes or reorder_bytes", RowKind::measurement, net_benefit},
+    {"traffic-by-frame", "Memory traffic along the camera path", "at least 2 frames", RowKind::measurement,
+     traffic_by_frame},
+    {"traffic-by-depth", "Memory traffic by depth in the tree", "rows by region and tree depth",
+     RowKind::detail, traffic_by_depth},
+    {"timeline", "Misses over the run", "rows by slice of the run", RowKind::timeline, timeline},
+    {"sampling-error", "Set sampling: error against run time", "rows of sampled runs", RowKind::sampling,
+     sampling_error},
+    {"error-by-time", "Error against run time", "rows of settings with total_seconds and rmse",
+     RowKind::convergence, error_by_time},
+    {"error-by-render-time", "Error against render time", "rows of settings with render_seconds and rmse",
+     RowKind::convergence, error_by_render_time},
+    {"efficiency", "Efficiency: 1 / (variance × run time)", "rows of settings with efficiency",
+     RowKind::convergence, efficiency},
+    {"bias-by-photons", "Bias and variance by number of photons",
+     "direct visualisation at 2 or more numbers of photons", RowKind::convergence, bias_by_photons},
+    {"bias-by-k", "Bias and variance by photons of a gather",
+     "direct visualisation at 2 or more k with the photons held", RowKind::convergence, bias_by_k},
+    {"stability", "Stiff and extreme cases: error and what is allowed", "rows of the stability study",
+     RowKind::stability, stability},
+};
+
+bool has(const Rows& rows, RowKind kind) {
+    switch (kind) {
+        case RowKind::detail:
+            return !rows.details.empty();
+        case RowKind::timeline:
+            return !rows.timeline.empty();
+        case RowKind::sampling:
+            return !rows.sampling.empty();
+        case RowKind::convergence:
+            return !rows.convergence.empty();
+        case RowKind::stability:
+            return !rows.stability.empty();
+        default:
+            return !rows.measurements.empty();
+    }
+}
+
+std::string xml_text(std::string_view text) {
+    std::string out;
+    for (const char c : text)
+        out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+    return out;
+}
+
+void replace_element(std::string& svg, const std::string& name, std::string_view text) {
+    const std::string open = '<' + name + '>', close = "</" + name + '>';
+    const auto from = svg.find(open), to = svg.find(close);
+    if (from == svg.npos || to == svg.npos) return;
+    svg.replace(from + open.size(), to - from - open.size(), xml_text(text));
+}
+
+}  // namespace
+
+std::span<const ChartKind> chart_kinds() {
+    return kinds_table;
+}
+
+const ChartKind& chart_kind(std::string_view name) {
+    std::string names;
+    for (const ChartKind& kind : kinds_table) {
+        if (kind.name == name) return kind;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", kind.name);
+    }
+    throw trace::UsageError(fmt::format("chart \"{}\" is not known, expected one of {}", name, names));
+}
+
+std::string script(const Chart& chart, Picture picture) {
+    return picture == Picture::svg
+               ? fmt::format("set terminal svg size {},{} font 'DejaVu Sans,13' background '#ffffff'\n{}",
+                             chart.width, chart.height, chart.commands)
+               : fmt::format(
+                     "set terminal pngcairo size {},{} font 'DejaVu Sans,13' fontscale 1.5 linewidth 2 "
+                     "pointscale 2 background '#ffffff'\n{}",
+                     2 * chart.width, 2 * chart.height, chart.commands);
+}
+
+std::string render(const Chart& chart, Picture picture) {
+    std::string bytes = run_gnuplot(script(chart, picture));
+    if (!bytes.starts_with(picture == Picture::svg ? "<?xml" : "\x89PNG"))
+        throw std::runtime_error(
+            "gnuplot: gave no picture; expected gnuplot 5.4 with the terminals svg and pngcairo");
+    if (picture == Picture::svg) {  // gnuplot's own name and version there would differ by machine
+        replace_element(bytes, "title", chart.title);
+        replace_element(bytes, "desc", chart.caption);
+    }
+    return bytes;
+}
+
+std::vector<const ChartKind*> wanted_kinds(const Rows& rows, std::span<const std::string> names) {
+    std::vector<const ChartKind*> out;
+    for (const std::string& name : names) out.push_back(&chart_kind(name));
+    if (!names.empty()) return out;
+    for (const ChartKind& kind : kinds_table)
+        if (has(rows, kind.rows)) out.push_back(&kind);
+    return out;
+}
+
+std::vector<Drawn> write_charts(const std::filesystem::path& folder, const Rows& rows,
+                                std::span<const std::string> kinds, const ChartOptions& options) {
+    std::vector<Drawn> out;
+    for (const ChartKind* kind : wanted_kinds(rows, kinds)) {
+        const Chart chart = kind->compose(*kind, rows, options);
+        Drawn& drawn = out.emplace_back(Drawn{kind->name, {}, chart.skipped});
+        if (!chart.skipped.empty()) continue;
+        for (const auto& [picture, ending] :
+             {std::pair{Picture::svg, "svg"}, std::pair{Picture::png, "png"}}) {
+            drawn.files.push_back(folder / fmt::format("{}.{}", kind->name, ending));
+            trace::write_file(drawn.files.back(), render(chart, picture));
+        }
+    }
+    return out;
+}
+
+std::vector<Drawn> write_charts(const std::filesystem::path& folder, std::span<const Row> rows,
+                                std::span<const std::string> kinds, const ChartOptions& options) {
+    return write_charts(folder, Rows{rows, {}, {}, {}}, kinds, options);
+}
+
+}  // namespace regather::results

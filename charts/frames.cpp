@@ -1,0 +1,68 @@
+#include "charts/frames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "charts/caption.h"
+#include "charts/figure.h"
+#include "charts/series.h"
+
+namespace regather::results {
+
+Chart traffic_by_frame(const ChartKind& kind, const Rows& rows, const ChartOptions& options) {
+    const auto common = commonest_geometry(rows.measurements);
+    if (!common) return skip("no row has cache_bytes, line_bytes and ways");
+    const Geometry cache = options.cache.value_or(*common);
+    std::vector<Curve> all =
+        curves(rows.measurements, Axis::cache, {cache, options.tile, options.bins, true});
+
+    std::set<std::uint64_t> frames;
+    double most = 0;
+    for (Curve& curve : all) {
+        std::vector<const Row*> own;
+        for (const auto& place : curve.frames)
+            for (const Row* row : place)
+                if (row->frame && row->cache_bytes == cache.cache_bytes &&
+                    row->traffic_bytes.value_or(0) > 0) {
+                    own.push_back(row);
+                    frames.insert(*row->frame);
+                    most = std::max(most, static_cast<double>(*row->traffic_bytes));
+                }
+        curve.rows = own;
+        curve.frames.clear();
+    }
+    std::erase_if(all, [](const Curve& curve) { return curve.rows.empty(); });
+    if (frames.size() < 2) return skip(fmt::format("needs {}; found {}", kind.needs, frames.size()));
+
+    const ByteUnit unit = byte_unit(most);
+    Plate plate;
+    plate.label = fmt::format("traffic [{}]", unit.name);
+    plate.height = 250;
+    std::vector<double> heights;
+    for (const Curve& curve : all) {
+        Line line = line_of(curve);
+        for (const Row* row : curve.rows) {
+            heights.push_back(static_cast<double>(*row->traffic_bytes) / unit.bytes);
+            line.points.push_back({static_cast<double>(*row->frame), heights.back()});
+        }
+        plate.lines.push_back(std::move(line));
+    }
+    plate.vertical = log_scale(heights, plain_number);
+    const auto first = static_cast<double>(*frames.begin()), last = static_cast<double>(*frames.rbegin());
+    Scale across{false, first - 0.03 * (last - first), last + 0.03 * (last - first), {}};
+    const std::size_t every = 1 + (frames.size() - 1) / 8;
+    std::size_t number = 0;
+    for (const std::uint64_t frame : frames)
+        if (number++ % every == 0)
+            across.ticks.emplace_back(static_cast<double>(frame), fmt::to_string(frame));
+    Chart chart;
+    chart.title = kind.title;
+    std::string text = geometry_text(cache);
+    chart.caption = caption(all, text.insert(text.find(','), " cache"));
+    compose(chart, {"frame of the camera path", across, {std::move(plate)}});
+    return chart;
+}
+
+}  // namespace regather::results

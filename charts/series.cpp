@@ -1,0 +1,226 @@
+#include "charts/series.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include "trace/error.h"
+
+namespace regather::results {
+namespace {
+
+constexpr bool tiles = true;
+constexpr Style known[] = {
+    {"random", "Random", "#999999", 3},
+    {"naive", "Naive", "#000000", 2},
+    {"tiled", "Tiled", "#8c564b", 8},
+    {"direction-binned", "Direction bins", "#e69f00", 5},
+    {"direction-binned+hashed", "Direction bins + hashed", "#d55e00", 13},
+    {"hashed", "Hashed", "#cc79a7", 15},
+    {"swizzle", "Swizzle", "#56b4e9", 11, tiles},
+    {"morton", "Morton", "#009e73", 9, tiles},
+    {"hilbert", "Hilbert", "#0072b2", 7, tiles},
+    {"kd-leaf", "kd-tree leaf", "#882255", 4, tiles},
+    {"bvh-leaf", "BVH leaf", "#b0a000", 6, tiles},
+};
+constexpr std::string_view spare_colours[] = {"#332288", "#44aa99", "#aa4499",
+                                              "#661100", "#6699cc", "#117733"};
+
+/// What, besides ordering, tile and bins, tells two curves apart.
+constexpr std::size_t trait_count = 7;
+using Traits = std::array<std::string, trait_count>;
+
+Traits traits_of(const Row& row, bool merge_frames) {
+    return {row.scene,
+            row.frame && !merge_frames ? fmt::format("frame {}", *row.frame) : "",
+            row.structure,
+            row.layout,
+            row.policy,
+            row.set_sampling.value_or(1) > 1 ? fmt::format("1/{} of the sets", *row.set_sampling) : "",
+            other_parameters(row)};
+}
+
+struct Group {
+    std::string ordering;
+    bool tiled, binned;
+    Traits traits;
+    std::vector<const Row*> rows;
+    std::vector<std::vector<const Row*>> frames = {};
+};
+
+bool fits(const Row& row, Axis axis, const Geometry& cache) {
+    const auto geometry = geometry_of(row);
+    if (!geometry || !row.traffic_bytes || (axis == Axis::bins && !row.bins)) return false;
+    if (row.tile == std::uint64_t{0} || row.bins == std::uint64_t{0}) return false;  // no place on a log axis
+    Geometry wanted = cache;
+    if (axis == Axis::cache) wanted.cache_bytes = geometry->cache_bytes;
+    return *geometry == wanted;
+}
+
+std::vector<Group> groups_of(std::span<const Row> rows, Axis axis, const Geometry& cache, bool merge_frames) {
+    std::vector<Group> groups;
+    for (const Row& row : rows) {
+        if (!fits(row, axis, cache)) continue;
+        const Traits traits = traits_of(row, merge_frames);
+        const bool tiled = row.tile.has_value(), binned = row.bins.has_value();
+        auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) {
+            return g.ordering == row.ordering && g.tiled == tiled && g.binned == binned && g.traits == traits;
+        });
+        if (group == groups.end())
+            group = groups.insert(group, {row.ordering, tiled, binned, traits, {}, {}});
+        group->rows.push_back(&row);
+    }
+    return groups;
+}
+
+/// Keeps the rows whose `field` is the nearest to `wanted` that there is.
+void hold(std::vector<const Row*>& rows, Count Row::*field, std::uint64_t wanted) {
+    const auto distance = [&](std::uint64_t value) {
+        return std::abs(std::log2(static_cast<double>(value)) - std::log2(static_cast<double>(wanted)));
+    };
+    std::uint64_t best = *(rows.front()->*field);
+    for (const Row* row : rows) {
+        const std::uint64_t value = *(row->*field);
+        if (distance(value) < distance(best) || (distance(value) == distance(best) && value < best))
+            best = value;
+    }
+    std::erase_if(rows, [&](const Row* row) { return *(row->*field) != best; });
+}
+
+/// Sorted along the axis, one row a place; the rows of all frames beside it.
+void settle(Group& group, Axis axis, bool flat) {
+    auto& rows = group.rows;
+    const auto place = [&](const Row* row) { return flat ? 0 : axis_value(*row, axis); };
+    std::stable_sort(rows.begin(), rows.end(), [&](auto a, auto b) {
+        return place(a) != place(b) ? place(a) < place(b) : a->frame < b->frame;
+    });
+    for (std::size_t i = 1; i < rows.size();) {
+        const Row &a = *rows[i - 1], &b = *rows[i];
+        if (place(&a) != place(&b) || a.frame != b.frame) {
+            ++i;
+            continue;
+        }
+        if (a.traffic_bytes != b.traffic_bytes || a.key_ops != b.key_ops ||
+            a.buffered_bytes != b.buffered_bytes)
+            throw trace::DataError(fmt::format(
+                "rows of \"{}\" contradict each other: the same parameters and cache with {} and with {} "
+                "bytes of "
+                "traffic, expected one measurement each",
+                b.parameters.empty() ? b.ordering : b.parameters, *a.traffic_bytes, *b.traffic_bytes));
+        rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    std::vector<const Row*> places;
+    for (const Row* row : rows) {
+        if (places.empty() || place(places.back()) != place(row)) {
+            places.push_back(row);
+            group.frames.emplace_back();
+        }
+        group.frames.back().push_back(row);
+    }
+    rows = places;
+}
+
+Curve look_of(const Group& group, const std::vector<Curve>& before, std::span<const std::string> strangers,
+              bool flat) {
+    Curve curve;
+    const auto style = std::find_if(std::begin(known), std::end(known),
+                                    [&](const Style& s) { return s.ordering == group.ordering; });
+    if (style != std::end(known)) {
+        curve.label = style->label;
+        curve.colour = style->colour;
+        curve.marker = style->marker;
+    } else {
+        const auto nth = static_cast<std::size_t>(
+            std::find(strangers.begin(), strangers.end(), group.ordering) - strangers.begin());
+        curve.label = group.ordering;
+        curve.colour = spare_colours[nth % std::size(spare_colours)];
+        curve.marker = 10 + static_cast<int>(nth % 6);
+    }
+    for (const Curve& other : before)
+        curve.variant += other.rows.front()->ordering == group.ordering && other.flat == flat;
+    curve.flat = flat;
+    return curve;
+}
+
+/// "Direction bins + hashed" -> "Direction bins 16×16 + hashed"; where a label does not speak of bins, at its
+/// end.
+void name_bins(std::string& label, std::uint64_t bins) {
+    const auto word = label.find("bins");
+    if (word == label.npos)
+        label += fmt::format(", {0}×{0} bins", bins);
+    else
+        label.insert(word + 4, fmt::format(" {0}×{0}", bins));
+}
+
+}  // namespace
+
+std::span<const Style> styles() {
+    return known;
+}
+
+std::string other_parameters(const Row& row) {
+    std::string out;
+    std::size_t at = 0;
+    while (at <= row.parameters.size()) {
+        const std::size_t end = std::min(row.parameters.find_first_of(":,+ ", at), row.parameters.size());
+        const std::string word = row.parameters.substr(at, end - at);
+        at = end + 1;
+        if (word.find('=') == word.npos || word.starts_with("tile=") || word.starts_with("bins=")) continue;
+        // A pass for each bin is what is meant when nothing is said.
+        if (row.bins && word == fmt::format("passes={}", *row.bins * *row.bins)) continue;
+        out += (out.empty() ? "" : ", ") + word;
+    }
+    return out;
+}
+
+double axis_value(const Row& row, Axis axis) {
+    const Count& value = axis == Axis::tile ? row.tile : axis == Axis::bins ? row.bins : row.cache_bytes;
+    return static_cast<double>(*value);
+}
+
+std::vector<Curve> curves(std::span<const Row> rows, Axis axis, const Slice& slice) {
+    std::vector<Group> groups = groups_of(rows, axis, slice.cache, slice.merge_frames);
+    std::array<bool, trait_count> differs{};
+    std::vector<std::string> strangers;
+    for (const Group& group : groups) {
+        // A parameter tells curves apart only within its ordering; scene, frame, layout ... within the chart.
+        for (std::size_t t = 0; t + 1 < trait_count; ++t)
+            differs[t] |= group.traits[t] != groups[0].traits[t];
+        const bool is_known = std::any_of(std::begin(known), std::end(known),
+                                          [&](const Style& s) { return s.ordering == group.ordering; });
+        if (!is_known && std::find(strangers.begin(), strangers.end(), group.ordering) == strangers.end())
+            strangers.push_back(group.ordering);
+    }
+    std::vector<Curve> out;
+    for (Group& group : groups) {
+        if (group.tiled && axis != Axis::tile) hold(group.rows, &Row::tile, slice.tile);
+        if (group.binned && axis != Axis::bins) hold(group.rows, &Row::bins, slice.bins);
+        Curve curve = look_of(group, out, strangers, axis == Axis::tile && !group.tiled);
+        settle(group, axis, curve.flat);
+        curve.rows = group.rows;
+        if (slice.merge_frames) curve.frames = group.frames;
+
+        const Row& row = *curve.rows.front();
+        const auto can_tile = std::any_of(std::begin(known), std::end(known), [&](const Style& s) {
+            return s.ordering == group.ordering && s.can_tile;
+        });
+        if (group.tiled && axis != Axis::tile) curve.label += fmt::format(", {0}×{0} tiles", *row.tile);
+        if (!group.tiled && can_tile) curve.label += ", whole image";
+        if (group.binned && axis != Axis::bins) name_bins(curve.label, *row.bins);
+        const bool parameters_differ = std::any_of(groups.begin(), groups.end(), [&](const Group& other) {
+            return other.ordering == group.ordering && other.tiled == group.tiled &&
+                   other.binned == group.binned && other.traits.back() != group.traits.back();
+        });
+        for (std::size_t t = 0; t < trait_count; ++t) {
+            const bool told = t + 1 < trait_count ? differs[t] : parameters_differ;
+            if (told && !group.traits[t].empty()) curve.label += ", " + group.traits[t];
+        }
+        out.push_back(std::move(curve));
+    }
+    return out;
+}
+
+}  // namespace regather::results

@@ -1,0 +1,146 @@
+#include "experiment/capture_job.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "cli/progress.h"
+#include "experiment/frames.h"
+#include "scenes/camera_path.h"
+#include "scenes/loader.h"
+#include "trace/error.h"
+#include "trace/folder.h"
+
+namespace regather::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has_columns(const trace::TraceReader& trace, const capture::Columns& columns) {
+    return (!columns.direction || trace.has("query_direction")) &&
+           (!columns.leaf_kd || trace.has("query_leaf_kd")) &&
+           (!columns.leaf_bvh || trace.has("query_leaf_bvh")) &&
+           (!columns.rays || trace.has("ray_eye_origin"));
+}
+
+std::string figures(const trace::TraceInfo& info) {
+    const double queries = static_cast<double>(std::max<std::uint64_t>(info.queries, 1));
+    return fmt::format(
+        "  {} map: {} photons, {} queries, {:.1f} photons found and {:.1f} nodes visited a query\n", info.map,
+        info.photons, info.queries, static_cast<double>(info.found_photons) / queries,
+        static_cast<double>(info.visited_nodes) / queries);
+}
+
+/// Where the parts of one captured frame lie.
+struct Files {
+    explicit Files(const fs::path& folder)
+        : exr(folder / "image.exr"),
+          png(folder / "image.png"),
+          trace(folder / "trace"),
+          caustic_trace(folder / "caustic-trace") {}
+    fs::path exr, png, trace, caustic_trace;
+};
+
+/// What is said of a finished capture of the same; nothing when there is none.
+std::optional<std::string> kept(const fs::path& folder, const Files& files, const scenes::Scene& scene,
+                                const capture::CaptureConfig& config) {
+    if (!fs::exists(files.trace / "trace.json")) return std::nullopt;
+    const trace::TraceReader trace(files.trace);
+    if (trace.info().parameters != capture::parameters(scene, config) || !has_columns(trace, config.columns))
+        throw trace::UsageError(
+            fmt::format("{}: holds a trace with other parameters or columns than asked for; give "
+                        "another folder, or --force to capture again",
+                        files.trace.string()));
+    for (const fs::path& image : {files.exr, files.png})
+        if (!fs::exists(image))
+            throw trace::UsageError(fmt::format("{}: holds the trace, but no {}; --force captures again",
+                                                folder.string(), image.filename().string()));
+    std::string report =
+        fmt::format("kept the finished capture in {}\n{}", folder.string(), figures(trace.info()));
+    if (capture::has_caustic_map(scene, config))
+        report += figures(trace::TraceReader(files.caustic_trace).info());
+    return report;
+}
+
+/// One picture, with its traces, into `folder`.
+std::string capture_into(const fs::path& folder, const scenes::Scene& scene, capture::CaptureConfig config,
+                         const CaptureOptions& options, bool force) {
+    const Files files(folder);
+    const bool has_caustics = capture::has_caustic_map(scene, config);
+    if (!force)
+        if (const auto report = kept(folder, files, scene, config)) return *report;
+    fs::create_directories(folder);
+    trace::TraceWriter writer(files.trace, force);
+    std::optional<trace::TraceWriter> caustic_writer;
+    if (has_caustics) {
+        caustic_writer.emplace(files.caustic_trace, true);  // without the other it is no finished capture
+    } else {
+        fs::remove_all(files.caustic_trace);
+    }
+    capture::Captured captured;
+    {
+        Progress progress;
+        const std::string name =
+            config.frame ? fmt::format("{}, frame {}", scene.name, *config.frame) : scene.name;
+        config.progress = [&](std::string_view stage, std::uint64_t done, std::uint64_t total) {
+            progress.update(fmt::format("capturing {}: {}", name, stage), stage, done, total);
+        };
+        captured = capture::capture(scene, config, {&writer, caustic_writer ? &*caustic_writer : nullptr});
+    }
+    std::vector<capture::Channel> channels = capture::channels_of(captured.image, "");
+    for (capture::Channel& channel : captured.layers.channels()) channels.push_back(std::move(channel));
+    capture::write_exr(files.exr, captured.image.width, captured.image.height, channels);
+    const float exposure = options.exposure > 0 ? static_cast<float>(options.exposure)
+                                                : capture::middle_exposure(captured.image);
+    capture::write_png(files.png, captured.image, exposure, options.tone_curve());
+    if (caustic_writer) caustic_writer->finish(*captured.caustic_info);
+    writer.finish(captured.info);
+
+    std::string report =
+        fmt::format("captured {} ({} triangles{})\n{}", scene.name, scene.triangles.size(),
+                    config.frame ? fmt::format(", frame {}", *config.frame) : "", figures(captured.info));
+    if (captured.caustic_info) report += figures(*captured.caustic_info);
+    report += fmt::format(
+        "  seconds: photons {:.1f}, trees {:.1f}, queries {:.1f}, gathers {:.1f}, writing {:.1f}\n",
+        captured.photon_seconds, captured.tree_seconds, captured.query_seconds, captured.gather_seconds,
+        captured.write_seconds);
+    for (const trace::LeftOut& part : captured.info.left_out)
+        report += fmt::format("  left out {}: {}\n", part.what, part.why);
+    if (captured.nonfinite.total() > 0) report += fmt::format("  {}\n", captured.nonfinite.text());
+    report += fmt::format("  image: {} and {}\n  trace: {}{}\n", files.exr.string(), files.png.string(),
+                          files.trace.string(),
+                          caustic_writer ? fmt::format(" and {}", files.caustic_trace.string()) : "");
+    return report;
+}
+
+}  // namespace
+
+CaptureResult run(const CaptureJob& job) {
+    scenes::Scene scene = scenes::load_scene(job.scene);
+    capture::CaptureConfig config = job.options.config();
+    if (job.reads) {
+        config.columns.direction = job.reads->direction;
+        config.columns.leaf_kd = job.reads->leaf_kd;
+        config.columns.leaf_bvh = job.reads->leaf_bvh;
+    }
+    CaptureResult result;
+    if (job.options.frames.empty()) {
+        result.report = capture_into(job.folder, scene, config, job.options, job.force);
+        result.folders.push_back(job.folder);
+        return result;
+    }
+    if (scene.camera_path.empty())
+        throw trace::UsageError(
+            fmt::format("--frames: found {}, expected none: the scene {} has no camera path",
+                        job.options.frames, scene.name));
+    for (const std::uint32_t frame : parse_frames(job.options.frames, scene.frames)) {
+        const fs::path folder = frame_folder(job.folder, frame);
+        scene.camera = scenes::camera_at(scene, frame);
+        config.frame = frame;
+        result.report += capture_into(folder, scene, config, job.options, job.force);
+        result.folders.push_back(folder);
+    }
+    return result;
+}
+
+}  // namespace regather::cli

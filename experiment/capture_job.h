@@ -1,0 +1,32 @@
+// experiment/capture_job.h -- a capture from a scene's name to the files: OUT/image.exr, OUT/image.png,
+// OUT/trace/ and, where there is a caustic map, OUT/caustic-trace/; with frames, the same in OUT/frame-0000/,
+// OUT/frame-0005/ ...
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiment/capture_options.h"
+#include "reorder/ordering.h"
+
+namespace regather::cli {
+
+struct CaptureJob {
+    std::string scene;
+    CaptureOptions options;
+    std::optional<reorder::Reads> reads;  ///< Columns that will be looked at; nothing: store them all.
+    std::filesystem::path folder;
+    bool force = false;
+};
+
+struct CaptureResult {
+    std::string report;                          ///< For people: several lines with figures and file names.
+    std::vector<std::filesystem::path> folders;  ///< One a frame; each holds image and traces.
+};
+
+/// Keeps a finished capture of the same scene and parameters. A finished one of others: trace::UsageError,
+/// unless `force`.
+CaptureResult run(const CaptureJob& job);
+
+}  // namespace regather::cli

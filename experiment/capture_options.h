@@ -1,0 +1,45 @@
+// experiment/capture_options.h -- what a capture can be asked for, from a command line or an experiment file.
+#pragma once
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "capture/capture.h"
+
+namespace CLI {
+class App;
+}
+
+namespace regather::cli {
+
+/// Defaults: the paper's Tables 1 and 2.
+struct CaptureOptions {
+    std::uint32_t width = 512, height = 512, samples = 1, gather_rays = 100, shadow_rays = 16,
+                  photons = 1'000'000, k = 100;
+    double radius = 0;  ///< [scene units]; 0: unlimited
+    std::string mode = "final-gather",
+                filter = "none";  ///< capture::visualisation_names, capture::filter_names
+    bool surface_check = true;
+    std::uint32_t caustic_photons = 100'000, caustic_k = 60;
+    double caustic_radius = 0;  ///< [scene units]; 0: unlimited
+    std::string caustic_filter = "cone";
+    std::vector<std::string> keep;  ///< Parts that the scene has no need of.
+    std::string frames;   ///< Of the camera path, as of experiment/frames.h; empty: the standing camera.
+    double exposure = 0;  ///< Of image.png [1 / radiance]; 0: by the image's mean.
+    std::string tone = "exponential";
+    std::uint64_t seed = 1;
+    std::string gather_order =
+        "hilbert";     ///< Of the searches within a batch of pixels; changes the time only.
+    bool rays = true;  ///< Store the rays, too.
+
+    void add_to(CLI::App& app);
+    /// Throws trace::UsageError for a value out of range or an unknown ordering.
+    capture::CaptureConfig config() const;
+    capture::Tone tone_curve() const;  ///< Throws as config().
+};
+
+/// The "capture" object of an experiment; `file` is for messages.
+CaptureOptions capture_options(const nlohmann::json& object, const std::string& file);
+
+}  // namespace regather::cli

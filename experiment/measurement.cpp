@@ -1,0 +1,204 @@
+#include "experiment/measurement.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "replay/buffered.h"
+#include "replay/levels.h"
+#include "trace/error.h"
+#include "trace/size.h"
+
+namespace regather::cli {
+
+namespace {
+
+std::vector<std::string_view> split(std::string_view list, char at) {
+    std::vector<std::string_view> parts;
+    for (std::size_t next; (next = list.find(at)) != list.npos; list.remove_prefix(next + 1))
+        parts.push_back(list.substr(0, next));
+    parts.push_back(list);
+    return parts;
+}
+
+}  // namespace
+
+std::vector<cachesim::CacheConfig> parse_caches(std::string_view text) {
+    const auto refuse = [&] {
+        throw trace::UsageError(fmt::format(
+            "cache: found '{}', expected SIZE:LINE:WAYS as in 128K:128:8, 16K:64:full or 16K,32K:128:1,2,4",
+            text));
+    };
+    const std::vector<std::string_view> fields = split(text, ':');
+    if (fields.size() != 3) refuse();
+    std::vector<cachesim::CacheConfig> caches;
+    for (const std::string_view size : split(fields[0], ','))
+        for (const std::string_view line : split(fields[1], ','))
+            for (const std::string_view ways : split(fields[2], ',')) {
+                cachesim::CacheConfig& cache = caches.emplace_back();
+                cache.size_bytes = parse_size(size);
+                const std::uint64_t line_bytes = parse_size(line);
+                if (line_bytes > 0xffffffffu) refuse();
+                cache.line_bytes = static_cast<std::uint32_t>(line_bytes);
+                if (ways == "full") {
+                    cache.ways = cachesim::fully_associative;
+                } else {
+                    const auto [end, error] =
+                        std::from_chars(ways.data(), ways.data() + ways.size(), cache.ways);
+                    if (error != std::errc{} || end != ways.data() + ways.size() || cache.ways == 0) refuse();
+                }
+                cachesim::check(cache);
+            }
+    return caches;
+}
+
+std::string cache_text(const cachesim::CacheConfig& cache) {
+    return fmt::format("{}:{}:{}", cache.size_bytes, cache.line_bytes,
+                       cache.ways == cachesim::fully_associative ? "full" : std::to_string(cache.ways));
+}
+
+Orderings parse_orderings(std::span<const std::string> specs) {
+    Orderings orderings;
+    for (const std::string& spec : specs) {
+        orderings.all.push_back(reorder::parse_ordering(spec));
+        const reorder::Reads one = orderings.all.back().ordering->reads();
+        reorder::Reads& all = orderings.reads;
+        all = {all.direction || one.direction, all.leaf_kd || one.leaf_kd, all.leaf_bvh || one.leaf_bvh};
+    }
+    return orderings;
+}
+
+Measurement::Measurement(trace::TraceReader& trace, const reorder::Reads& reads, std::uint64_t onchip_bytes)
+    : trace_(trace), walks_(trace), onchip_bytes_(onchip_bytes) {
+    const trace::TraceInfo& info = trace.info();
+    if (info.image_width == 0 || info.image_height == 0)
+        throw trace::DataError(fmt::format("{}: {}: found 0, expected at least one pixel",
+                                           (trace.folder() / "trace.json").string(),
+                                           info.image_width == 0 ? "image_width" : "image_height"));
+    work_.position = trace.column<trace::Vec3>("query_position");
+    work_.pixel = trace.column<std::uint32_t>("query_pixel");
+    if (reads.direction) work_.direction = trace.column<trace::Vec3>("query_direction");
+    if (reads.leaf_kd) work_.leaf_kd = trace.column<std::uint32_t>("query_leaf_kd");
+    if (reads.leaf_bvh) work_.leaf_bvh = trace.column<std::uint32_t>("query_leaf_bvh");
+    work_.bounds = trace::bounds_of(work_.position);
+    work_.image_width = trace.info().image_width;
+    work_.image_height = trace.info().image_height;
+}
+
+reorder::Ordered Measurement::order(const reorder::Ordering& ordering) const {
+    return reorder::order(ordering, work_, onchip_bytes_);
+}
+
+void Measurement::find_compulsory(std::span<const std::uint32_t> line_sizes) {
+    const std::vector<bool> touched = replay::touched_nodes(walks_);
+    for (const std::uint32_t line : line_sizes)
+        compulsory_bytes[line] = replay::compulsory_bytes(touched, layout_, line);
+}
+
+void Measurement::prepare(std::span<const cachesim::CacheConfig> caches, const Method& method,
+                          const std::function<void(std::uint64_t)>& progress) {
+    method_ = method;
+    if (method.sampling) {
+        replay::SetSample::check(caches, *method.sampling);
+        line_use_ = replay::count_line_use(walks_, layout_, caches, progress);
+    } else {
+        revisits_ = replay::count_revisits(walks_, layout_, {{caches.begin(), caches.end()}, method.classes},
+                                           progress);
+    }
+}
+
+void Measurement::prepare(const replay::Revisits& revisits, const Method& method) {
+    method_ = method;
+    revisits_ = revisits;
+}
+
+replay::Replayed Measurement::replayed(std::span<const std::uint32_t> permutation,
+                                       std::span<const cachesim::CacheConfig> caches,
+                                       const std::function<void(std::uint64_t)>& progress) const {
+    if (method_.sampling)
+        return replay::SetSample(walks_, layout_, caches, *method_.sampling, line_use_)
+            .replay(permutation, progress);
+    return replay::replay(walks_, layout_, permutation, {{caches.begin(), caches.end()}, method_.classes},
+                          revisits_, progress);
+}
+
+void Measurement::through(const reorder::Ordered& ordered, std::span<cachesim::Hierarchy> systems,
+                          const std::function<void(std::uint64_t)>& progress) const {
+    replay::replay_levels(walks_, layout_, ordered.permutation, systems, progress);
+    for (cachesim::Hierarchy& system : systems) system.flush();
+}
+
+std::vector<results::Row> Measurement::rows(const reorder::ParsedOrdering& parsed,
+                                            const reorder::Ordered& ordered,
+                                            std::span<const cachesim::CacheConfig> caches,
+                                            const std::function<void(std::uint64_t)>& progress) const {
+    const replay::Replayed replayed = this->replayed(ordered.permutation, caches, progress);
+    const reorder::OrderingSpec& spec = parsed.spec;
+    const reorder::Cost& cost = ordered.cost;
+    std::vector<replay::BufferedTraffic> buffered;
+    if (method_.buffers) {
+        const reorder::BufferUse use = buffer_use(*parsed.ordering, ordered);
+        if (use.known && !use.empty())
+            buffered =
+                replay::replay_with_buffers(walks_, layout_, ordered.permutation, use, caches, progress);
+    }
+    std::vector<results::Row> rows;
+    for (const replay::CacheTraffic& traffic : replayed.caches) {
+        results::Row row;
+        row.scene = trace_.info().scene;
+        if (trace_.info().frame) row.frame = *trace_.info().frame;
+        row.ordering = spec.name;
+        if (spec.tile) row.tile = *spec.tile;
+        if (spec.bins) row.bins = *spec.bins;
+        row.parameters = spec.text;
+        row.structure = trace_.info().structure;
+        if (trace_.info().map != "global") row.structure += " " + trace_.info().map;
+        row.layout = layout_.name;
+        row.policy = "lru";
+        row.cache_bytes = traffic.config.size_bytes;
+        row.line_bytes = traffic.config.line_bytes;
+        row.ways = traffic.config.ways;
+        row.queries = ordered.permutation.size();
+        row.accesses = traffic.accesses;
+        row.raw_bytes = replayed.raw_bytes;
+        row.oracle_bytes = trace_.info().found_photons * layout_.used_bytes;
+        if (const auto known = compulsory_bytes.find(traffic.config.line_bytes);
+            known != compulsory_bytes.end())
+            row.compulsory_bytes = known->second;
+        row.misses = traffic.misses;
+        row.traffic_bytes = traffic.traffic_bytes;
+        if (traffic.classes) {
+            row.compulsory = traffic.classes->compulsory;
+            row.capacity = traffic.classes->capacity;
+            row.conflict = traffic.classes->conflict;
+        }
+        if (traffic.error) {
+            row.set_sampling = method_.sampling->one_of;
+            row.sampled_sets = traffic.error->sampled_sets;
+            row.misses_stderr = traffic.error->standard_error;
+            row.misses_low = traffic.error->low;
+            row.misses_high = traffic.error->high;
+        }
+        row.onchip_bytes = onchip_bytes_;
+        if (!buffered.empty()) {
+            const replay::BufferedTraffic& both = buffered[rows.size()];
+            row.buffer_traffic_bytes = both.photon_bytes + both.buffer_bytes - traffic.traffic_bytes;
+        } else if (method_.buffers && cost.reorder_bytes == 0) {
+            row.buffer_traffic_bytes = 0;
+        }
+        row.keys = cost.keys;
+        row.key_ops = cost.key_ops;
+        row.sort_passes = cost.sort_passes;
+        row.moved_records = cost.moved_records;
+        row.buffered_bytes = cost.buffered_bytes;
+        row.reorder_bytes = cost.reorder_bytes;
+        row.recast_rays = cost.recast_rays;
+        row.stalls = cost.stalls;
+        row.order_seconds = ordered.seconds;
+        row.replay_seconds = replayed.seconds;
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+}  // namespace regather::cli

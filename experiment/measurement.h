@@ -1,0 +1,91 @@
+// experiment/measurement.h -- one trace, put into orders and replayed: the wiring from columns to result
+// rows.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cachesim/cache.h"
+#include "cachesim/hierarchy.h"
+#include "reorder/catalogue.h"
+#include "replay/replay.h"
+#include "replay/set_sample.h"
+#include "results/row.h"
+#include "trace/folder.h"
+
+namespace regather::cli {
+
+/// "128K:128:8", "128K:128:full", or lists that are multiplied out, "16K,32K:128:1,2,full". Throws
+/// trace::UsageError.
+std::vector<cachesim::CacheConfig> parse_caches(std::string_view text);
+std::string cache_text(const cachesim::CacheConfig& cache);  ///< "131072:128:8"
+
+/// Orderings by their specs, and the columns that any of them looks at. Throws as reorder::parse_ordering().
+struct Orderings {
+    std::vector<reorder::ParsedOrdering> all;
+    reorder::Reads reads;
+};
+Orderings parse_orderings(std::span<const std::string> specs);
+
+/// How caches are measured.
+struct Method {
+    bool classes = false;  ///< Misses by Hill's classes, too.
+    bool buffers = false;  ///< What the orderings' buffers add to the traffic, too: a pass for each cache.
+    std::optional<replay::Sampling> sampling;  ///< Some of the sets; all when there is none.
+};
+
+class Measurement {
+public:
+    /// `reads`: the columns that the orderings to come look at. The reader outlives the measurement.
+    Measurement(trace::TraceReader& trace, const reorder::Reads& reads, std::uint64_t onchip_bytes);
+
+    std::uint64_t queries() const { return walks_.queries(); }
+    const replay::WalkStore& walks() const { return walks_; }
+    const replay::HeapLayout& layout() const { return layout_; }
+    reorder::Ordered order(const reorder::Ordering& ordering) const;
+    /// What the ordering's buffers do in memory; `ordered` is its order().
+    reorder::BufferUse buffer_use(const reorder::Ordering& ordering, const reorder::Ordered& ordered) const {
+        return ordering.buffer_use(work_, onchip_bytes_, ordered.permutation);
+    }
+
+    /// Finds what the replays of all orders through these caches share. On all cores; `progress` is told
+    /// queries done.
+    void prepare(std::span<const cachesim::CacheConfig> caches, const Method& method,
+                 const std::function<void(std::uint64_t)>& progress);
+    /// Another sample, after prepare() with one.
+    void sample(const replay::Sampling& sampling) { method_.sampling = sampling; }
+    const replay::Revisits& revisits() const { return revisits_; }
+    /// In place of prepare() without sampling: what it found before, of these caches or more.
+    void prepare(const replay::Revisits& revisits, const Method& method);
+
+    /// A row for each cache, in their order, all of them prepared. Any number of threads may call.
+    std::vector<results::Row> rows(const reorder::ParsedOrdering& parsed, const reorder::Ordered& ordered,
+                                   std::span<const cachesim::CacheConfig> caches,
+                                   const std::function<void(std::uint64_t)>& progress) const;
+    /// One of the orders through each memory system, from empty to flushed.
+    void through(const reorder::Ordered& ordered, std::span<cachesim::Hierarchy> systems,
+                 const std::function<void(std::uint64_t)>& progress) const;
+    /// Finds the compulsory traffic for the line sizes; rows() then tells it. Walks the whole trace once.
+    void find_compulsory(std::span<const std::uint32_t> line_sizes);
+    std::map<std::uint32_t, std::uint64_t> compulsory_bytes;  ///< By line size.
+
+private:
+    replay::Replayed replayed(std::span<const std::uint32_t> permutation,
+                              std::span<const cachesim::CacheConfig> caches,
+                              const std::function<void(std::uint64_t)>& progress) const;
+
+    trace::TraceReader& trace_;
+    replay::WalkStore walks_;
+    replay::HeapLayout layout_;
+    reorder::Workload work_;
+    std::uint64_t onchip_bytes_;
+    Method method_;
+    replay::Revisits revisits_;
+    replay::LineUse line_use_;
+};
+
+}  // namespace regather::cli

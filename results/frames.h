@@ -1,9 +1,0 @@
-// results/frames.h -- how traffic varies along a camera path.
-#pragma once
-#include "results/chart.h"
-
-namespace regather::results {
-
-Chart traffic_by_frame(const ChartKind& kind, const Rows& rows, const ChartOptions& options);
-
-}  // namespace regather::results

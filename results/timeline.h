@@ -1,9 +1,0 @@
-// results/timeline.h -- misses per query as a run goes on.
-#pragma once
-#include "results/chart.h"
-
-namespace regather::results {
-
-Chart timeline(const ChartKind& kind, const Rows& rows, const ChartOptions& options);
-
-}  // namespace regather::results

@@ -1,0 +1,257 @@
+// The charts of classes, budgets, depths, time and sampling: the script holds the very points of the rows.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "charts/figure.h"
+#include "tests/results/drawing.h"
+#include "tests/results/rows.h"
+#include "trace/error.h"
+
+namespace regather::results {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+Rows only(const std::vector<Row>& rows) {
+    return {rows, {}, {}, {}};
+}
+
+Row classed(std::string ordering, Count tile, std::uint64_t compulsory, std::uint64_t capacity,
+            std::uint64_t conflict) {
+    Row row = made_row(std::move(ordering), tile, {}, 128 * (compulsory + capacity + conflict));
+    row.compulsory = compulsory;
+    row.capacity = capacity;
+    row.conflict = conflict;
+    row.misses = compulsory + capacity + conflict;
+    return row;
+}
+
+TEST(MissesByClass, StacksSharesAndPrintsTheTotals) {
+    std::vector<Row> rows = {classed("naive", {}, 100, 700, 200), classed("hilbert", 16, 30, 10, 0),
+                             classed("hilbert", 64, 1, 1, 0), classed("naive", {}, 9, 0, 0)};
+    rows[3].cache_bytes = 4096;
+    const Chart chart = compose("misses-by-class", only(rows));
+    const std::string text = script(chart, Picture::svg);
+    // left, right, bottom, top; the first row is the upper bar.
+    EXPECT_THAT(text, HasSubstr("$box_0_0 << EOD\n0 10 1.08 1.54\n"));
+    EXPECT_THAT(text, HasSubstr("$box_0_1 << EOD\n10 80 1.08 1.54\n"));
+    EXPECT_THAT(text, HasSubstr("$box_0_2 << EOD\n80 100 1.08 1.54\n"));
+    EXPECT_THAT(text, HasSubstr("$box_0_3 << EOD\n0 75 0.08 0.54\n"));
+    EXPECT_THAT(text, HasSubstr("$box_0_4 << EOD\n75 100 0.08 0.54\n"));
+    EXPECT_THAT(text, HasSubstr("$box_0_5 << EOD\n100 100 0.08 0.54\n"));
+    EXPECT_THAT(text, Not(HasSubstr("$box_0_6")));  // other tiles, another cache
+    for (const char* label : {"'1.00 k misses'", "'40 misses'", "'Naive'", "'Hilbert, 16×16 tiles'", "'70 %'",
+                              "'share of misses [%]'", "'compulsory: first touch'"})
+        EXPECT_THAT(text, HasSubstr(label));
+    EXPECT_EQ(chart.caption,
+              "room · 1.00 k queries · 128 KiB cache, 128 B lines, 8-way LRU · left-balanced-kd · heap-20");
+    ChartOptions small;
+    small.cache = Geometry{4096, 128, 8};
+    EXPECT_THAT(script(compose("misses-by-class", only(rows), small), Picture::svg), HasSubstr("'9 misses'"));
+}
+
+TEST(MissesByClass, ClassesMustSumToTheMissesUnlessSampled) {
+    std::vector<Row> rows = {classed("naive", {}, 1, 2, 3)};
+    rows[0].misses = 7;
+    EXPECT_THROW(compose("misses-by-class", only(rows)), trace::DataError);
+    rows[0].set_sampling = 16;
+    EXPECT_EQ(compose("misses-by-class", only(rows)).skipped, "");
+    rows[0].conflict.reset();
+    EXPECT_EQ(compose("misses-by-class", only(rows)).skipped, "no row has compulsory, capacity and conflict");
+}
+
+Row netted(std::string ordering, std::uint64_t cache, std::uint64_t buffered, std::uint64_t traffic,
+           std::uint64_t buffers) {
+    Row row = made_row(std::move(ordering), {}, {}, traffic);
+    row.cache_bytes = cache;
+    row.buffered_bytes = buffered;
+    row.onchip_bytes = 1 << 20;
+    row.buffer_traffic_bytes = buffers;
+    return row;
+}
+
+TEST(NetBenefit, DrawsTheEnvelopesAndNamesTheWinners) {
+    const std::vector<Row> rows = {netted("naive", 16384, 0, 90000000000, 0),
+                                   netted("naive", 65536, 0, 80000000000, 0),
+                                   netted("hilbert", 16384, 16384, 30000000000, 0),
+                                   netted("hilbert", 65536, 2097152, 5000000000, 7000000000)};
+    const Chart chart = compose("net-benefit", only(rows));
+    EXPECT_EQ(data_of(chart, "$line_1", "Naive"), "16384 90\n65536 80\n98304 80\n");
+    EXPECT_EQ(data_of(chart, "$line_1", "Hilbert"), "32768 30\n65536 12\n98304 12\n");
+    const std::string text = script(chart, Picture::svg);
+    EXPECT_THAT(text, HasSubstr("$box_0_0 << EOD\n16384 32768 0 1\n"));
+    EXPECT_THAT(text, HasSubstr("$box_0_1 << EOD\n32768 98304 0 1\n"));
+    EXPECT_THAT(text, HasSubstr("'net traffic [GB]'"));
+    EXPECT_THAT(text, HasSubstr("'on-chip budget: cache and buffers [KiB]'"));
+    EXPECT_THAT(text, HasSubstr("'16' 16384, '32' 32768, '64' 65536"));
+    EXPECT_THAT(text, HasSubstr("set label 'Hilbert' at 56755"));  // the band names its winner
+    // The edge of the picture is no measurement: no marker there.
+    EXPECT_THAT(text, HasSubstr("$line_1_1 every ::0::1 using 1:2 with points"));
+}
+
+TEST(NetBenefit, ComparesOneSettingOnly) {
+    std::vector<Row> rows = {netted("naive", 16384, 0, 9, 0), netted("naive", 65536, 0, 8, 0)};
+    EXPECT_EQ(compose("net-benefit", only(rows)).skipped, "");
+    rows[1].scene = "box";
+    EXPECT_EQ(compose("net-benefit", only(rows)).skipped,
+              "needs rows of one scene, frame, structure, layout and policy");
+    rows[1] = netted("naive", 16384, 0, 9, 0);
+    EXPECT_THAT(compose("net-benefit", only(rows)).skipped,
+                HasSubstr("found 1 budget with 128 B lines, 8-way"));
+    for (Row& row : rows) row.buffer_traffic_bytes.reset();
+    EXPECT_THAT(compose("net-benefit", only(rows)).skipped,
+                HasSubstr("buffer_traffic_bytes or reorder_bytes"));
+}
+
+DetailRow level(std::string ordering, Count depth, std::uint64_t traffic, std::uint64_t used) {
+    DetailRow row;
+    row.scene = "room";
+    row.ordering = std::move(ordering);
+    row.cache_bytes = 128 * 1024;
+    row.line_bytes = 128;
+    row.ways = 8;
+    row.region = depth ? "photons" : "reorder_buffer";
+    row.tree_depth = depth;
+    row.misses = traffic / 128;
+    row.traffic_bytes = traffic;
+    row.used_bytes = used;
+    return row;
+}
+
+TEST(TrafficByDepth, HasTrafficAboveOverfetch) {
+    std::vector<DetailRow> rows = {level("naive", 2, 1280, 200), level("naive", 0, 128, 128),
+                                   level("naive", 1, 0, 0),      level("naive", {}, 99968, 10),
+                                   level("hilbert", 0, 256, 0),  level("hilbert", 1, 512, 128)};
+    rows.back().tile = rows[4].tile = 16;
+    const Chart chart = compose("traffic-by-depth", {{}, rows, {}, {}});
+    EXPECT_EQ(data_of(chart, "$line_0", "Naive"), "0 128\n2 1280\n");
+    EXPECT_EQ(data_of(chart, "$line_1", "Naive"), "0 1\n2 6.4\n");
+    EXPECT_EQ(data_of(chart, "$line_0", "Hilbert, 16×16 tiles"), "0 256\n1 512\n");
+    EXPECT_EQ(data_of(chart, "$line_1", "Hilbert, 16×16 tiles"), "1 4\n");
+    EXPECT_THAT(script(chart, Picture::svg), HasSubstr("'depth in the tree (root 0)'"));
+    EXPECT_EQ(chart.caption, "room · 128 KiB cache, 128 B lines, 8-way");
+    EXPECT_EQ(compose("traffic-by-depth", {}).skipped,
+              "needs rows by region and tree depth, with traffic_bytes");
+    ChartOptions other;
+    other.cache = Geometry{4096, 64, 0};
+    EXPECT_EQ(compose("traffic-by-depth", {{}, rows, {}, {}}, other).skipped,
+              "no row has the cache 4 KiB, 64 B lines, fully associative");
+}
+
+TimelineRow slice(std::string ordering, std::uint64_t first, std::uint64_t queries, std::uint64_t misses) {
+    TimelineRow row;
+    row.scene = "room";
+    row.ordering = std::move(ordering);
+    row.cache_bytes = 128 * 1024;
+    row.line_bytes = 128;
+    row.ways = 8;
+    row.first_query = first;
+    row.queries = queries;
+    row.misses = misses;
+    return row;
+}
+
+TEST(Timeline, HasMissesPerQueryAtTheMiddleOfEachSlice) {
+    const std::vector<TimelineRow> rows = {slice("naive", 40, 60, 600), slice("naive", 0, 40, 100),
+                                           slice("morton", 0, 50, 50),  slice("morton", 50, 25, 0),
+                                           slice("morton", 75, 25, 10), slice("hilbert", 0, 100, 0)};
+    const Chart chart = compose("timeline", {{}, {}, rows, {}});
+    EXPECT_EQ(data_of(chart, "$line_0", "Naive"), "20 2.5\n70 10\n");
+    // No place for 0 on a log axis: the curve breaks off there.
+    EXPECT_EQ(data_of(chart, "$line_0", "Morton, whole image"), "25 1\n\n87.5 0.4\n");
+    const std::string text = script(chart, Picture::svg);
+    EXPECT_THAT(text, HasSubstr("'No misses: Hilbert, whole image'"));
+    EXPECT_THAT(text, HasSubstr("'misses per query'"));
+    EXPECT_THAT(text, HasSubstr("set logscale y"));
+    EXPECT_THAT(text, HasSubstr("set xrange [0:100]"));
+}
+
+SamplingRow sampled(std::string parameters, std::uint64_t rate, std::uint64_t misses, double seconds,
+                    bool covered) {
+    SamplingRow row;
+    row.scene = "room";
+    row.ordering = parameters.substr(0, parameters.find(':'));
+    row.parameters = std::move(parameters);
+    row.set_sampling = rate;
+    row.misses = misses;
+    row.exact_misses = 1000;
+    row.covered = covered;
+    row.seconds = seconds;
+    return row;
+}
+
+TEST(SamplingError, HasErrorInPercentAgainstSecondsAndTheNominalLine) {
+    const std::vector<SamplingRow> rows = {
+        sampled("naive", 1, 1000, 50, true),          sampled("naive", 4, 1020, 10, true),
+        sampled("naive", 2, 990, 20, true),           sampled("naive", 4, 980, 10, false),
+        sampled("hilbert:tile=16", 2, 1004, 8, true), sampled("hilbert:tile=64", 2, 1003, 7, true),
+        sampled("hilbert:tile=64", 4, 1000, 7, true)};
+    const Chart chart = compose("sampling-error", {{}, {}, {}, rows});
+    EXPECT_EQ(data_of(chart, "$line_0", "Naive"), "20 1\n10 2\n");
+    EXPECT_EQ(data_of(chart, "$line_0", "Hilbert, 16×16 tiles"), "8 0.4\n");
+    EXPECT_EQ(data_of(chart, "$line_0", "Hilbert, 64×64 tiles"), "7 0.3\n");
+    EXPECT_EQ(data_of(chart, "$line_1", "Naive"), "20 100\n10 50\n");
+    EXPECT_THAT(data_of(chart, "$line_1", "nominal 95 %"), testing::MatchesRegex("[0-9.]+ 95\n[0-9.]+ 95\n"));
+    const std::string text = script(chart, Picture::svg);
+    EXPECT_THAT(text, HasSubstr("set label '1/4' at 10,2 "));
+    EXPECT_THAT(text, Not(HasSubstr("at 8,0.4 ")));  // of many curves only the uppermost bears the rates
+    EXPECT_THAT(text, HasSubstr("'RMS error of misses [%]'"));
+    EXPECT_EQ(chart.caption, "room · 1/4 ... 1/2 of the sets");
+    EXPECT_THAT(compose("sampling-error", {{}, {}, {}, std::span(rows).first(1)}).skipped,
+                HasSubstr("above 0"));
+}
+
+TEST(Figure, ScalesEncloseTheirValues) {
+    const double values[] = {3, 60};
+    const Scale scale = log_scale(values, plain_number);
+    EXPECT_LT(scale.low, 3);
+    EXPECT_GT(scale.high, 60);
+    EXPECT_THAT(scale.ticks, ElementsAre(testing::Pair(5, "5"), testing::Pair(10, "10"),
+                                         testing::Pair(20, "20"), testing::Pair(50, "50")));
+    const Scale linear = linear_scale(6.4, plain_number);
+    EXPECT_THAT(linear.ticks, ElementsAre(testing::Pair(0, "0"), testing::Pair(2, "2"), testing::Pair(4, "4"),
+                                          testing::Pair(6, "6"), testing::Pair(8, "8")));
+    EXPECT_EQ(linear.high, 8);
+    EXPECT_EQ(linear_scale(1, plain_number).high, 1);
+}
+
+TEST(Chart, TheKindsThatAreWantedAreThoseWithRows) {
+    const std::vector<DetailRow> details = {level("naive", 0, 128, 128)};
+    const std::vector<Row> rows = {made_row("naive", {}, {}, 1)};
+    const auto names = [](const std::vector<const ChartKind*>& kinds) {
+        std::vector<std::string_view> out;
+        for (const ChartKind* kind : kinds) out.push_back(kind->name);
+        return out;
+    };
+    EXPECT_THAT(names(wanted_kinds({{}, details, {}, {}}, {})), ElementsAre("traffic-by-depth"));
+    EXPECT_THAT(names(wanted_kinds(only(rows), {})),
+                ElementsAre("traffic-by-tile", "traffic-by-cache", "cost-by-tile", "cost-by-bins",
+                            "misses-by-class", "net-benefit", "traffic-by-frame"));
+    const std::string asked[] = {"timeline"};
+    EXPECT_THAT(names(wanted_kinds(only(rows), asked)), ElementsAre("timeline"));
+    EXPECT_TRUE(wanted_kinds({}, {}).empty());
+}
+
+TEST(Chart, EveryFurtherKindBecomesAPictureWhateverTheNames) {
+    const std::string name = "it's `id` \\ {/x} <b>&\nexit 3";
+    std::vector<Row> rows = {classed(name, {}, 1, 2, 3), netted(name, 16384, 0, 9000, 0),
+                             netted(name, 65536, 0, 80, 0)};
+    const std::vector<DetailRow> details = {level(name, 0, 128, 128), level(name, 1, 256, 128)};
+    const std::vector<TimelineRow> slices = {slice(name, 0, 10, 10), slice(name, 10, 10, 20)};
+    const std::vector<SamplingRow> runs = {sampled(name, 2, 990, 2, true), sampled(name, 4, 980, 1, true)};
+    for (const char* kind :
+         {"misses-by-class", "net-benefit", "traffic-by-depth", "timeline", "sampling-error"}) {
+        const Chart chart = compose(kind, {rows, details, slices, runs});
+        ASSERT_EQ(chart.skipped, "") << kind;
+        EXPECT_EQ(chart.width, 440u);  // a column of a paper
+        const std::string svg = render(chart, Picture::svg);
+        EXPECT_THAT(svg, HasSubstr("it’s `id` \\ {/x} &lt;b>&amp; exit 3")) << kind;
+        EXPECT_EQ(svg, render(compose(kind, {rows, details, slices, runs}), Picture::svg));
+        EXPECT_EQ(render(chart, Picture::png).substr(0, 4), "\x89PNG");
+    }
+}
+
+}  // namespace
+}  // namespace regather::results

@@ -1,0 +1,133 @@
+#include "charts/series.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/results/rows.h"
+#include "trace/error.h"
+
+namespace regather::results {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<std::string> labels(const std::vector<Curve>& all) {
+    std::vector<std::string> out;
+    for (const Curve& curve : all) out.push_back(curve.label);
+    return out;
+}
+
+std::vector<std::uint64_t> traffic(const Curve& curve) {
+    std::vector<std::uint64_t> out;
+    for (const Row* row : curve.rows) out.push_back(*row->traffic_bytes);
+    return out;
+}
+
+TEST(Series, RunsAlongTilesAndKeepsWhatHasNoneLevel) {
+    const std::vector<Row> rows = {made_row("naive", {}, {}, 900), made_row("hilbert", 32, {}, 50),
+                                   made_row("hilbert", 8, {}, 100), made_row("hilbert", {}, {}, 5)};
+    const auto all = curves(rows, Axis::tile, {});
+    ASSERT_THAT(labels(all), ElementsAre("Naive", "Hilbert", "Hilbert, whole image"));
+    EXPECT_TRUE(all[0].flat);
+    EXPECT_FALSE(all[1].flat);
+    EXPECT_TRUE(all[2].flat);
+    EXPECT_THAT(traffic(all[1]), ElementsAre(100, 50));
+    EXPECT_EQ(all[1].colour, all[2].colour);
+}
+
+TEST(Series, HoldsTheOtherParametersAtTheNearestValueMeasured) {
+    std::vector<Row> rows;
+    for (const std::uint64_t tile : {4, 32, 64})
+        for (const std::uint64_t bins : {2, 8})
+            rows.push_back(made_row("direction-binned", tile, bins, tile * 100 + bins));
+    // 32 is nearer to 16 by ratio than 4; 8 is the nearest number of bins.
+    auto all = curves(rows, Axis::tile, {});
+    ASSERT_THAT(labels(all), ElementsAre("Direction bins 8×8"));
+    EXPECT_THAT(traffic(all[0]), ElementsAre(408, 3208, 6408));
+    all = curves(rows, Axis::bins, {});
+    ASSERT_THAT(labels(all), ElementsAre("Direction bins, 32×32 tiles"));
+    EXPECT_THAT(traffic(all[0]), ElementsAre(3202, 3208));
+    all = curves(rows, Axis::cache, {});
+    ASSERT_THAT(labels(all), ElementsAre("Direction bins 8×8, 32×32 tiles"));
+    EXPECT_THAT(traffic(all[0]), ElementsAre(3208));
+    // 8 and 32 are equally far from 16: the smaller one.
+    const std::vector<Row> tie = {made_row("hilbert", 32, {}, 1), made_row("hilbert", 8, {}, 2)};
+    EXPECT_THAT(traffic(curves(tie, Axis::cache, {})[0]), ElementsAre(2));
+}
+
+TEST(Series, TakesOnlyRowsOfTheCacheAndOfTheAxis) {
+    std::vector<Row> rows = {made_row("hilbert", 8, {}, 1), made_row("hilbert", 16, {}, 2),
+                             made_row("tiled", 8, {}, 3), made_row("hilbert", 32, {}, 4),
+                             made_row("hilbert", 0, {}, 5)};
+    rows[1].cache_bytes = 4096;
+    rows[2].ways = 4;
+    rows[3].traffic_bytes.reset();
+    const auto by_tile = curves(rows, Axis::tile, {});
+    ASSERT_THAT(labels(by_tile), ElementsAre("Hilbert"));
+    EXPECT_THAT(traffic(by_tile[0]), ElementsAre(1));
+    rows[1].tile = 8;
+    const auto by_cache = curves(rows, Axis::cache, {});
+    ASSERT_THAT(labels(by_cache), ElementsAre("Hilbert, 8×8 tiles"));
+    EXPECT_THAT(traffic(by_cache[0]), ElementsAre(2, 1));
+    EXPECT_TRUE(curves(rows, Axis::bins, {}).empty());
+
+    std::vector<Row> binned = {made_row("direction-binned", 16, 4, 1),
+                               made_row("direction-binned", 16, 8, 2)};
+    binned[1].cache_bytes = 4096;
+    EXPECT_THAT(traffic(curves(binned, Axis::bins, {})[0]), ElementsAre(1));
+}
+
+TEST(Series, NamesOnlyWhatDiffers) {
+    const std::vector<Row> rows = {
+        with_parameters(made_row("tiled", 8, {}, 1), "tiled:tile=8,rows=left-to-right"),
+        with_parameters(made_row("tiled", 8, {}, 2), "tiled:tile=8,rows=alternating"),
+        with_parameters(made_row("hilbert", 8, {}, 3), "hilbert:tile=8,bits=16"),
+        with_parameters(made_row("hilbert", {}, {}, 4), "hilbert:bits=21"),
+    };
+    EXPECT_THAT(labels(curves(rows, Axis::tile, {})),
+                ElementsAre("Tiled, rows=left-to-right", "Tiled, rows=alternating", "Hilbert",
+                            "Hilbert, whole image"));
+    std::vector<Row> layouts = {made_row("naive", {}, {}, 1), made_row("naive", {}, {}, 2)};
+    layouts[1].layout = "veb-20";
+    const auto all = curves(layouts, Axis::tile, {});
+    EXPECT_THAT(labels(all), ElementsAre("Naive, heap-20", "Naive, veb-20"));
+    EXPECT_NE(all[0].variant, all[1].variant);
+}
+
+TEST(Series, APassForEachBinIsNoParameterOfItsOwn) {
+    const std::vector<Row> rows = {
+        with_parameters(made_row("direction-binned", 16, 4, 1), "direction-binned:tile=16,bins=4,passes=16"),
+        with_parameters(made_row("direction-binned", 16, 8, 2), "direction-binned:tile=16,bins=8,passes=64"),
+        with_parameters(made_row("direction-binned", 16, 8, 3), "direction-binned:tile=16,bins=8,passes=16"),
+    };
+    EXPECT_THAT(labels(curves(rows, Axis::bins, {})),
+                ElementsAre("Direction bins, 16×16 tiles", "Direction bins, 16×16 tiles, passes=16"));
+}
+
+TEST(Series, ARepeatedRowIsOneAndAContradictionIsRefused) {
+    std::vector<Row> rows = {made_row("hilbert", 8, {}, 7), made_row("hilbert", 8, {}, 7)};
+    EXPECT_THAT(traffic(curves(rows, Axis::tile, {})[0]), ElementsAre(7));
+    rows[1].traffic_bytes = 8;
+    EXPECT_THROW(curves(rows, Axis::tile, {}), trace::DataError);
+    rows = {made_row("naive", {}, {}, 7), made_row("naive", {}, {}, 8)};
+    EXPECT_THROW(curves(rows, Axis::tile, {}), trace::DataError);
+}
+
+TEST(Series, NoTwoOrderingsLookAlike) {
+    std::set<std::string_view> colours;
+    std::set<int> markers;
+    for (const Style& style : styles()) {
+        EXPECT_TRUE(colours.insert(style.colour).second) << style.ordering;
+        EXPECT_TRUE(markers.insert(style.marker).second) << style.ordering;
+    }
+    const std::vector<Row> strangers = {made_row("mine", {}, {}, 1), made_row("yours", {}, {}, 2)};
+    const auto all = curves(strangers, Axis::tile, {});
+    EXPECT_THAT(labels(all), ElementsAre("mine", "yours"));
+    EXPECT_NE(all[0].colour, all[1].colour);
+    EXPECT_TRUE(colours.insert(all[0].colour).second);
+}
+
+}  // namespace
+}  // namespace regather::results

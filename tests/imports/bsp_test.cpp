@@ -1,0 +1,131 @@
+#include "imports/maps/bsp.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/imports/bsp_text.h"
+#include "trace/error.h"
+
+namespace regather::scenes {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string refusal(const std::vector<std::uint8_t>& bytes) {
+    try {
+        read_bsp(bytes, "m.bsp");
+    } catch (const trace::DataError& error) {
+        return error.what();
+    }
+    return "taken";
+}
+
+void set(std::vector<std::uint8_t>& bytes, std::size_t at, std::int32_t value) {
+    std::memcpy(&bytes[at], &value, 4);
+}
+
+TEST(Bsp, AHandMadeMapHasWhatWasPutIn) {
+    const Bsp bsp = read_bsp(hand_made_map().bytes(), "m.bsp");
+    ASSERT_EQ(bsp.faces.size(), 4u);
+    EXPECT_EQ(bsp.faces[2].kind, BspFace::Kind::patch);
+    EXPECT_EQ(bsp.faces[2].patch_width, 3u);
+    EXPECT_EQ(bsp.textures[1].name, "textures/x/lamp_2k");
+    EXPECT_EQ(bsp.vertices[8].position, (Vec3{192, 0, 0}));
+    EXPECT_EQ(bsp.indices, (std::vector<std::uint32_t>{0, 2, 1, 0, 3, 2}));
+    EXPECT_EQ(bsp.entities.at(1).value("origin"), "0 0 24");
+    EXPECT_EQ(bsp.entities.at(1).value("target"), "");
+    EXPECT_EQ(bsp.nodes.at(0).children, (std::array<std::int32_t, 2>{-1, -2}));
+    EXPECT_EQ(bsp.leaves.at(1).brush_count, 1u);
+    EXPECT_EQ(bsp.models.at(0).face_count, 4u);
+}
+
+TEST(Bsp, EveryCutFileIsRefused) {
+    const auto whole = hand_made_map().bytes();
+    for (std::size_t size = 0; size + 1 < whole.size(); ++size)
+        EXPECT_NE(refusal({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}), "taken")
+            << size;
+}
+
+TEST(Bsp, OtherFilesAreNamed) {
+    auto bytes = hand_made_map().bytes();
+    set(bytes, 4, 47);
+    EXPECT_EQ(refusal(bytes), "m.bsp: version: found 47, expected 46");
+    bytes[0] = 'R';
+    EXPECT_EQ(refusal(bytes), "m.bsp: magic: found \"RBSP\", expected \"IBSP\"");
+}
+
+TEST(Bsp, LumpsOutsideTheFileAndHalfRecordsAreRefused) {
+    auto bytes = hand_made_map().bytes();
+    set(bytes, 8 + 8 * BspText::vertices, std::numeric_limits<std::int32_t>::max());
+    EXPECT_THAT(refusal(bytes), HasSubstr("lump of vertices: found"));
+    bytes = hand_made_map().bytes();
+    set(bytes, 8 + 8 * BspText::faces + 4, -104);
+    EXPECT_THAT(refusal(bytes), HasSubstr("lump of faces: found -104 bytes"));
+    bytes = hand_made_map().put(BspText::planes, 0).bytes();
+    EXPECT_THAT(refusal(bytes), HasSubstr("lump of planes: found 100 bytes, expected a multiple of 16"));
+}
+
+TEST(Bsp, IndicesThatLeadNowhereAreRefused) {
+    EXPECT_THAT(refusal(hand_made_map().face(3, 1, 0, 4, 0, 6).bytes()),
+                HasSubstr("faces[4].texture: found 3"));
+    EXPECT_THAT(refusal(hand_made_map().face(0, 5, 0, 4, 0, 6).bytes()), HasSubstr("faces[4].type: found 5"));
+    EXPECT_THAT(refusal(hand_made_map().face(0, 1, 15, 4, 0, 6).bytes()),
+                HasSubstr("faces[4].vertices: found 4 from 15"));
+    EXPECT_THAT(refusal(hand_made_map().face(0, 1, 0, 3, 0, 6).bytes()),
+                HasSubstr("faces[4].mesh vertices: found 3"));
+    EXPECT_THAT(refusal(hand_made_map().face(0, 1, 0, 4, 0, 5).bytes()), HasSubstr("three a triangle"));
+    EXPECT_THAT(refusal(hand_made_map().face(0, 1, 0, 4, 0x7fffffff, 0x7fffffff).bytes()),
+                HasSubstr("a part of 6"));
+    EXPECT_THAT(refusal(hand_made_map().put(BspText::leaf_brushes, 1).bytes()),
+                HasSubstr("leaf brushes[1].brush"));
+    EXPECT_THAT(refusal(hand_made_map().model(0, 1).bytes()),
+                HasSubstr("models[1].faces: found 5 with the models"));
+}
+
+TEST(Bsp, PatchesNeedOddSizesThatMatchTheirPoints) {
+    EXPECT_THAT(refusal(hand_made_map().face(2, 2, 8, 8, 0, 0, 4, 2).bytes()),
+                HasSubstr("size: found 4 x 2"));
+    EXPECT_THAT(refusal(hand_made_map().face(2, 2, 8, 9, 0, 0, 65537, 65537).bytes()),
+                HasSubstr("size: found 65537"));
+    EXPECT_THAT(refusal(hand_made_map().face(2, 2, 8, 9, 0, 0, 3, 5).bytes()), HasSubstr("expected 3 x 5"));
+}
+
+TEST(Bsp, NodesFormATreeOrAreRefused) {
+    const std::array<std::int32_t, 6> box{};
+    EXPECT_THAT(refusal(hand_made_map().put(BspText::nodes, 0, 1, -1, box).bytes()),
+                HasSubstr("nodes[1].children: found 1"));
+    EXPECT_THAT(refusal(hand_made_map().put(BspText::nodes, 0, -1, -3, box).bytes()),
+                HasSubstr("one of 2 leaves"));
+    const auto shared = hand_made_map().put(BspText::nodes, 0, 2, 2, box).put(BspText::nodes, 0, -1, -1, box);
+    EXPECT_THAT(refusal(shared.bytes()), HasSubstr("nodes[1].children: found 2"));
+}
+
+TEST(Bsp, NumbersThatAreNoneOrTooLargeAreRefused) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THAT(refusal(hand_made_map().vertex({0, nan, 0}, {0, 0, 1}).bytes()),
+                HasSubstr("vertices[17].position: found nan"));
+    EXPECT_THAT(refusal(hand_made_map().vertex({0, 2e6f, 0}, {0, 0, 1}).bytes()),
+                HasSubstr("vertices[17].position"));
+    EXPECT_THAT(refusal(hand_made_map().vertex({}, {0, 0, nan}).bytes()), HasSubstr("vertices[17].normal"));
+}
+
+TEST(Bsp, EntityTextIsReadByThePairAndRefusedWithItsLine) {
+    const auto entities = read_entities("{\n\"a\" \"1 {2}\"\n\"b\" \"\"\n} {}", "m");
+    ASSERT_EQ(entities.size(), 2u);
+    EXPECT_EQ(entities[0].value("a"), "1 {2}");
+    EXPECT_TRUE(entities[1].pairs.empty());
+    for (const char* damaged :
+         {"{\n\"a\" \"1", "{\n\"a\" }", "{\n\"a\" \"1\"", "{\n{", "{\nword", "\n\"a\""}) {
+        try {
+            read_entities(damaged, "m");
+            ADD_FAILURE() << damaged;
+        } catch (const trace::DataError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("m: entities, line 2: found")) << damaged;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace regather::scenes

@@ -1,0 +1,221 @@
+#include "imports/homes/wall.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "imports/homes/polygon.h"
+#include "meshes/weld.h"
+#include "trace/bounds.h"
+
+namespace regather::scenes {
+namespace {
+
+HomeWall wall(std::string id, PlanPoint start, PlanPoint end, double thickness = 10) {
+    HomeWall w;
+    w.id = std::move(id);
+    w.start = start;
+    w.end = end;
+    w.thickness = thickness;
+    w.height = w.height_at_end = 250;
+    return w;
+}
+
+Surface joined(const WallSurfaces& parts) {
+    Surface all;
+    for (const Surface* part : {&parts.left, &parts.right, &parts.top}) {
+        const auto first = static_cast<std::uint32_t>(all.vertices.size());
+        all.vertices.insert(all.vertices.end(), part->vertices.begin(), part->vertices.end());
+        for (const auto& [a, b, c] : part->triangles)
+            all.triangles.push_back({a + first, b + first, c + first});
+    }
+    return all;
+}
+
+// By the divergence theorem: of a closed surface that faces outward.
+double volume(const Surface& surface) {
+    double sum = 0;
+    for (const auto& [a, b, c] : surface.triangles)
+        sum += static_cast<double>(dot(surface.vertices[a], cross(surface.vertices[b], surface.vertices[c])));
+    return sum / 6;
+}
+
+WallHole door(double from, double to, double low, double high, double y = 0, double depth = 20) {
+    return {{PlanPoint{from, y - depth / 2}, {to, y - depth / 2}, {to, y + depth / 2}, {from, y + depth / 2}},
+            low,
+            high};
+}
+
+TEST(Wall, AWallIsAClosedBoxOfItsSize) {
+    const HomeWall w = wall("a", {0, 0}, {400, 0});
+    const Surface surface = joined(extrude(w, wall_outlines({&w, 1})[0], 0, {}));
+    EXPECT_TRUE(is_closed(surface));
+    EXPECT_NEAR(volume(surface), 4 * 0.1 * 2.5, 1e-5);
+    const trace::Bounds3 bounds = trace::bounds_of(surface.vertices);
+    EXPECT_EQ(bounds.min, (Vec3{0, -0.05f, 0}));
+    EXPECT_EQ(bounds.max, (Vec3{4, 0.05f, 2.5f}));
+}
+
+TEST(Wall, ItsLeftIsOnTheLeftHandOfWhoWalksAlongIt) {
+    // On the plan y is down: who walks to the right has smaller y, and larger scene y, on the left.
+    const HomeWall w = wall("a", {0, 0}, {400, 0});
+    const WallSurfaces surfaces = extrude(w, wall_outlines({&w, 1})[0], 0, {});
+    for (const auto& [a, b, c] : surfaces.right.triangles)
+        EXPECT_NEAR(
+            surfaces.right.vertices[a].y + surfaces.right.vertices[b].y + surfaces.right.vertices[c].y,
+            -0.15f, 1e-6);
+}
+
+TEST(Wall, ADoorAndAWindowAreCutOutAndTheWallStaysClosed) {
+    const HomeWall w = wall("a", {0, 0}, {400, 0});
+    const std::vector<WallHole> holes{door(50, 140, 0, 210), door(200, 320, 90, 220)};
+    const Surface surface = joined(extrude(w, wall_outlines({&w, 1})[0], 0, holes));
+    EXPECT_TRUE(is_closed(surface));
+    EXPECT_NEAR(volume(surface), 0.1 * (4 * 2.5 - 0.9 * 2.1 - 1.2 * 1.3), 1e-5);
+}
+
+TEST(Wall, HolesThatOverlapReachTheEndOrTheTopAreCutOnce) {
+    const HomeWall w = wall("a", {0, 0}, {400, 0});
+    const std::vector<WallHole> holes{door(100, 200, 0, 200), door(150, 250, 100, 220),
+                                      door(350, 500, 0, 999)};
+    const Surface surface = joined(extrude(w, wall_outlines({&w, 1})[0], 0, holes));
+    EXPECT_TRUE(is_closed(surface));
+    EXPECT_NEAR(volume(surface), 0.1 * (4 * 2.5 - (1 * 2 + 1 * 1.2 - 0.5 * 1) - 0.5 * 2.5), 1e-5);
+}
+
+TEST(Wall, ADoorInAnotherWallOrBesideItLeavesItWhole) {
+    const HomeWall w = wall("a", {0, 0}, {400, 0});
+    for (const WallHole& hole : {door(100, 200, 0, 200, 100), door(100, 200, 0, 200, 14),
+                                 door(500, 600, 0, 200), door(100, 200, 300, 400)})
+        EXPECT_NEAR(volume(joined(extrude(w, wall_outlines({&w, 1})[0], 0, {&hole, 1}))), 1, 1e-5);
+}
+
+TEST(Wall, FourJoinedWallsMeetInMitresThatLeaveNoGapAndNoOverlap) {
+    std::vector<HomeWall> walls{wall("a", {0, 0}, {400, 0}), wall("b", {400, 0}, {400, 300}),
+                                wall("c", {400, 300}, {0, 300}), wall("d", {0, 300}, {0, 0})};
+    for (std::size_t i = 0; i < 4; ++i) {
+        walls[i].at_end = walls[(i + 1) % 4].id;
+        walls[i].at_start = walls[(i + 3) % 4].id;
+    }
+    const std::vector<WallOutline> outlines = wall_outlines(walls);
+    double sum = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Surface surface = joined(extrude(walls[i], outlines[i], 0, {}));
+        EXPECT_TRUE(is_closed(surface));
+        sum += volume(surface);
+        EXPECT_EQ(in_metres(outlines[i].left.back(), 0), in_metres(outlines[(i + 1) % 4].left.front(), 0));
+        EXPECT_EQ(in_metres(outlines[i].right.back(), 0), in_metres(outlines[(i + 1) % 4].right.front(), 0));
+    }
+    EXPECT_NEAR(sum, 2.5 * (4.1 * 3.1 - 3.9 * 2.9), 1e-4);
+}
+
+TEST(Wall, WallsJoinedStartToStartAndByOneSideOnly) {
+    std::vector<HomeWall> walls{wall("a", {0, 0}, {400, 0}), wall("b", {0, 0}, {0, 300})};
+    walls[0].at_start = "b";
+    walls[1].at_start = "a";
+    std::vector<WallOutline> outlines = wall_outlines(walls);
+    EXPECT_NEAR(outlines[0].left[0].x, -5, 1e-9);  // the outer corner
+    EXPECT_NEAR(outlines[0].right[0].x, 5, 1e-9);
+    EXPECT_NEAR(outlines[1].right[0].y, -5, 1e-9);
+    walls[1].at_start = "";  // b ends in a without a's knowledge of it: nothing is mitred
+    outlines = wall_outlines(walls);
+    EXPECT_EQ(outlines[0].left[0], (PlanPoint{0, -5}));
+}
+
+TEST(Wall, ASlopingTopAndAnArcHaveTheirVolumes) {
+    HomeWall sloping = wall("a", {0, 0}, {400, 0});
+    sloping.height_at_end = 50;
+    const WallHole hole = door(100, 200, 20, 100);
+    const Surface slope = joined(extrude(sloping, wall_outlines({&sloping, 1})[0], 0, {&hole, 1}));
+    EXPECT_TRUE(is_closed(slope));
+    EXPECT_NEAR(volume(slope), 0.1 * (4 * 1.5 - 1 * 0.8), 1e-5);
+
+    HomeWall arc = wall("b", {-100, 0}, {100, 0});
+    arc.arc_extent = std::numbers::pi;
+    const Surface half = joined(extrude(arc, wall_outlines({&arc, 1})[0], 0, {}));
+    const double ring = std::numbers::pi / 2 * (1.05 * 1.05 - 0.95 * 0.95) * 2.5;
+    EXPECT_NEAR(volume(half), ring, 0.02 * ring);  // of chords
+}
+
+TEST(Wall, WallsWithoutLengthOrThicknessGiveNothing) {
+    for (const HomeWall& w : {wall("a", {0, 0}, {0, 0}), wall("a", {0, 0}, {400, 0}, 0)}) {
+        const WallHole hole = door(100, 200, 0, 200);
+        const Surface surface = joined(extrude(w, wall_outlines({&w, 1})[0], 0, {&hole, 1}));
+        EXPECT_NEAR(volume(surface), 0, 1e-9);
+        for (const Vec3 p : surface.vertices) EXPECT_TRUE(trace::is_finite(p));
+    }
+}
+
+double area(const std::vector<PlanPoint>& polygon) {
+    double sum = 0;
+    for (const auto& [a, b, c] : triangulate(polygon)) {
+        const double twice = twice_area(std::vector{polygon[a], polygon[b], polygon[c]});
+        EXPECT_EQ(twice > 0, twice_area(polygon) > 0);
+        sum += std::abs(twice) / 2;
+    }
+    return sum;
+}
+
+TEST(Polygon, TrianglesCoverExactlyThePolygon) {
+    const std::vector<PlanPoint> l_shape{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}};
+    EXPECT_NEAR(area(l_shape), 6, 1e-12);
+    EXPECT_NEAR(area({l_shape.rbegin(), l_shape.rend()}), 6, 1e-12);
+    EXPECT_NEAR(area({{0, 0}, {2, 0}, {2, 0}, {4, 0}, {4, 2}, {0, 2}}), 8,
+                1e-12);  // with a repeated and a flat corner
+    std::vector<PlanPoint> comb;
+    for (int i = 0; i < 20; ++i) {
+        comb.push_back({2.0 * i, 0});
+        comb.push_back({2.0 * i + 1, 10});
+    }
+    comb.push_back({39, -1});
+    comb.push_back({0, -1});
+    EXPECT_NEAR(area(comb), std::abs(twice_area(comb)) / 2, 1e-9);
+}
+
+TEST(Polygon, NonsenseEnds) {
+    EXPECT_TRUE(triangulate(std::vector<PlanPoint>{}).empty());
+    EXPECT_TRUE(triangulate(std::vector<PlanPoint>{{0, 0}, {1, 1}}).empty());
+    EXPECT_TRUE(triangulate(std::vector<PlanPoint>{{0, 0}, {1, 1}, {2, 2}, {3, 3}}).empty());
+    EXPECT_LE(triangulate(std::vector<PlanPoint>{{0, 0}, {2, 2}, {2, 0}, {0, 2}}).size(), 2u);  // a bow tie
+}
+
+TEST(Weld, GlassBecomesSolidAndFacesOutward) {
+    Surface box = tessellate(Box{{0, 0, 0}, {1, 1, 1}});
+    EXPECT_TRUE(is_closed(box));
+    for (auto& triangle : box.triangles) std::swap(triangle[1], triangle[2]);
+    EXPECT_NEAR(volume(as_solid(box, 0.1f)), 1, 1e-6);
+    const Surface sheet = as_solid(tessellate(Quad{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {2, 2}}), 0.1f);
+    EXPECT_TRUE(is_closed(sheet));
+    EXPECT_NEAR(volume(sheet), 0.6, 1e-6);
+}
+
+TEST(Weld, ACavityStaysACavity) {
+    Surface box = tessellate(Box{{0, 0, 0}, {1, 1, 1}}),
+            hole = tessellate(Box{{0.25f, 0.25f, 0.25f}, {0.75f, 0.75f, 0.75f}});
+    const auto first = static_cast<std::uint32_t>(box.vertices.size());
+    box.vertices.insert(box.vertices.end(), hole.vertices.begin(), hole.vertices.end());
+    box.normals.insert(box.normals.end(), hole.normals.begin(), hole.normals.end());
+    for (const auto& [a, b, c] : hole.triangles) box.triangles.push_back({first + a, first + c, first + b});
+    EXPECT_NEAR(volume(as_solid(box, 0.1f)), 1 - 0.125, 1e-6);
+}
+
+TEST(Weld, NormalsAreSmoothAcrossGentleEdgesOnly) {
+    Surface sphere = tessellate(Sphere{{0, 0, 0}, 1, 32});
+    sphere.normals.assign(sphere.vertices.size(), {});
+    const Surface smooth = with_smooth_normals(sphere, 40);
+    for (std::size_t v = 0; v < smooth.vertices.size(); ++v)
+        EXPECT_GT(dot(smooth.normals[v], smooth.vertices[v]), 0.99f);
+    const Surface box = with_smooth_normals(tessellate(Box{{0, 0, 0}, {1, 1, 1}}), 40);
+    for (const Vec3 n : box.normals) EXPECT_NEAR(std::abs(n.x) + std::abs(n.y) + std::abs(n.z), 1, 1e-6);
+}
+
+TEST(Weld, SimplifyingKeepsTheShapeAndDropsDetail) {
+    const Surface sphere = tessellate(Sphere{{0, 0, 0}, 1, 256});
+    const Surface simple = simplified(sphere, 0.1f);
+    EXPECT_LT(simple.triangles.size(), sphere.triangles.size() / 4);
+    EXPECT_NEAR(volume(simple), 4.0 / 3 * std::numbers::pi, 0.1);
+}
+
+}  // namespace
+}  // namespace regather::scenes

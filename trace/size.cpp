@@ -1,0 +1,29 @@
+#include "trace/size.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <limits>
+
+#include "trace/error.h"
+
+namespace regather::cli {
+
+std::uint64_t parse_size(std::string_view text) {
+    const auto refuse = [&] {
+        return trace::UsageError(
+            fmt::format("size: found '{}', expected bytes below 2^64 as 4096, 16K, 1M or 2G", text));
+    };
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{}) throw refuse();
+    const std::string_view suffix = text.substr(static_cast<std::size_t>(end - text.data()));
+    if (suffix.empty()) return value;
+    const std::size_t power = std::string_view("KkMmGg").find(suffix);
+    if (suffix.size() != 1 || power == std::string_view::npos) throw refuse();
+    const std::size_t shift = 10 * (power / 2 + 1);
+    if (value > std::numeric_limits<std::uint64_t>::max() >> shift) throw refuse();
+    return value << shift;
+}
+
+}  // namespace regather::cli
