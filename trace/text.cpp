@@ -2,64 +2,82 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
+#include <algorithm>
 
 namespace regather::trace {
 
 namespace {
 
-struct Character {
-    char32_t code = 0;
-    std::size_t bytes = 0;  // 0: not UTF-8.
-};
-
-// The first character of a text that is not empty (RFC 3629: no surrogates, no overlong forms, at most
-// U+10FFFF).
-Character first_of(std::string_view text) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char lead = byte(0);
-    if (lead < 0x80) return {lead, 1};
-    const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-    constexpr char32_t least[]{0, 0, 0x80, 0x800, 0x10000};
-    if (lead < 0xC2 || lead > 0xF4 || text.size() < length) return {};
-    char32_t code = lead & (0xFFu >> (length + 1));
-    for (std::size_t i = 1; i < length; ++i) {
-        if ((byte(i) & 0xC0) != 0x80) return {};
-        code = (code << 6) | (byte(i) & 0x3Fu);
-    }
-    if (code < least[length] || code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF)) return {};
-    return {code, length};
+std::uint32_t code_point(std::string_view character) {
+    const auto byte = [&](std::size_t i) {
+        return static_cast<std::uint32_t>(static_cast<unsigned char>(character[i]));
+    };
+    if (character.size() == 1) return byte(0);
+    std::uint32_t code = byte(0) & (0x7fu >> character.size());
+    for (std::size_t i = 1; i < character.size(); ++i) code = code << 6 | (byte(i) & 0x3f);
+    return code;
 }
 
-bool acts_on_a_terminal(char32_t c) {
-    return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x061C || (c >= 0x200E && c <= 0x200F) ||
-           (c >= 0x2028 && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069) || c == 0xFEFF;
+bool is_invisible(std::uint32_t code) {
+    return (code >= 0x80 && code < 0xa0) || code == 0xad || code == 0x61c ||
+           (code >= 0x200b && code <= 0x200f) || (code >= 0x2028 && code <= 0x202e) ||
+           (code >= 0x2060 && code <= 0x206f) || code == 0xfeff || (code >= 0xfff9 && code <= 0xfffb) ||
+           (code >= 0xe0000 && code <= 0xe007f);
+}
+
+std::string escaped(std::string_view text, std::size_t most_bytes, std::string_view specials) {
+    std::string line;
+    std::size_t i = 0;
+    while (i < text.size()) {
+        const std::size_t length = utf8_length(text.substr(i));
+        const std::size_t step = std::max<std::size_t>(length, 1);
+        if (i + step > most_bytes) return line + "...";
+        const std::string_view character = text.substr(i, step);
+        const unsigned char byte = static_cast<unsigned char>(character[0]);
+        i += step;
+        if (length > 1) {
+            const std::uint32_t code = code_point(character);
+            if (is_invisible(code)) {
+                line += fmt::format("\\u{{{:x}}}", code);
+            } else {
+                line += character;
+            }
+        } else if (byte == '\n' || byte == '\t' || byte == '\r') {
+            line += byte == '\n' ? "\\n" : byte == '\t' ? "\\t" : "\\r";
+        } else if (length == 0 || byte < ' ' || byte == 127) {
+            line += fmt::format("\\x{:02x}", byte);
+        } else {
+            if (specials.find(character[0]) != specials.npos) line += '\\';
+            line += character[0];
+        }
+    }
+    return line;
 }
 
 }  // namespace
 
+std::size_t utf8_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) -> unsigned {
+        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+    };
+    const auto continues = [&](std::size_t i) { return (byte(i) & 0xc0) == 0x80; };
+    if (text.empty()) return 0;
+    const unsigned first = byte(0), second = byte(1);
+    if (first < 0x80) return 1;
+    if (first < 0xc2 || first > 0xf4 || !continues(1)) return 0;
+    if (first < 0xe0) return 2;
+    if (!continues(2)) return 0;
+    if (first < 0xf0) return (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ? 0 : 3;
+    if (!continues(3)) return 0;
+    return (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f) ? 0 : 4;
+}
+
+std::string shown(std::string_view text, std::size_t most_bytes) {
+    return escaped(text, most_bytes, "");
+}
+
 std::string in_quotes(std::string_view text, std::size_t most_bytes) {
-    std::string line = "\"";
-    for (std::size_t at = 0; at < text.size();) {
-        const Character c = first_of(text.substr(at));
-        const std::size_t bytes = c.bytes > 0 ? c.bytes : 1;
-        if (at + bytes > most_bytes) {
-            line += "...";
-            break;
-        }
-        if (c.bytes == 0)
-            line += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[at]));
-        else if (c.code == '"' || c.code == '\\')
-            line.append(1, '\\').append(1, static_cast<char>(c.code));
-        else if (c.code == '\n' || c.code == '\r' || c.code == '\t')
-            line += c.code == '\n' ? "\\n" : c.code == '\r' ? "\\r" : "\\t";
-        else if (acts_on_a_terminal(c.code))
-            line += fmt::format("\\u{:04x}", static_cast<std::uint32_t>(c.code));
-        else
-            line += text.substr(at, bytes);
-        at += bytes;
-    }
-    return line + '"';
+    return '"' + escaped(text, most_bytes, "\"\\") + '"';
 }
 
 }  // namespace regather::trace

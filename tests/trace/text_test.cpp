@@ -16,9 +16,9 @@ TEST(Text, PlainTextStandsInQuotes) {
 
 TEST(Text, NothingThatATerminalObeysGetsThrough) {
     EXPECT_EQ(in_quotes("a\nb\r\tc"), R"("a\nb\r\tc")");
-    EXPECT_EQ(in_quotes(std::string("a\0\x1b[2J\x7f", 7)), R"("a\u0000\u001b[2J\u007f")");
-    EXPECT_EQ(in_quotes("\u009b31m"), R"("\u009b31m")");            // C1: the same as ESC [
-    EXPECT_EQ(in_quotes("a\u202eb\u2028"), R"("a\u202eb\u2028")");  // right to left, a line's end
+    EXPECT_EQ(in_quotes(std::string("a\0\x1b[2J\x7f", 7)), R"("a\x00\x1b[2J\x7f")");
+    EXPECT_EQ(in_quotes("\u009b31m"), R"("\u{9b}31m")");                // C1: the same as ESC [
+    EXPECT_EQ(in_quotes("a\u202eb\u2028"), R"("a\u{202e}b\u{2028}")");  // right to left, a line's end
 }
 
 TEST(Text, BytesThatAreNotUtf8AreShownAsBytes) {
