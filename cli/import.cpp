@@ -23,7 +23,7 @@ namespace regather::cli {
 
 namespace {
 
-using scenes::ImportedScene;
+using imports::ImportedScene;
 using trace::UsageError;
 
 /// What the command line says; which options a kind takes stands in the table.
@@ -45,21 +45,21 @@ const std::filesystem::path& one_file(const Request& request) {
 }
 
 Imported import_home(const Request& request) {
-    return {scenes::import_sweethome3d(one_file(request), request.home), {}};
+    return {imports::import_sweethome3d(one_file(request), request.home), {}};
 }
 
 Imported import_glassware(const Request& request) {
-    return {scenes::import_furniture(request.files), {}};
+    return {imports::import_furniture(request.files), {}};
 }
 
 Imported import_one_mesh(const Request& request) {
     if (request.up != "y" && request.up != "z")
         throw UsageError(fmt::format("--up: found '{}', expected y or z", request.up));
-    return {scenes::import_mesh(one_file(request), {.y_up = request.up == "y", .size = request.size}), {}};
+    return {imports::import_mesh(one_file(request), {.y_up = request.up == "y", .size = request.size}), {}};
 }
 
 Imported import_map(const Request& request) {
-    scenes::OpenArenaMap map = scenes::import_openarena(request.files, {.map = request.map});
+    imports::OpenArenaMap map = imports::import_openarena(request.files, {.map = request.map});
     return {std::move(map.scene), std::move(map.notes)};
 }
 
@@ -157,9 +157,9 @@ void add_import(CLI::App& app) {
     command->callback([options, command] {
         const ImportKind& kind = kind_of(options->kind);
         refuse_options_of_others(*command, kind);
-        scenes::check_scene_folder(options->folder, options->force);
+        imports::check_scene_folder(options->folder, options->force);
         const Imported imported = kind.import(options->request);
-        scenes::write_scene(imported.scene, options->folder, options->force);
+        imports::write_scene(imported.scene, options->folder, options->force);
         fmt::print("{}", summary_of(imported.scene));
         for (const std::string& note : imported.notes) fmt::print("note     {}\n", note);
         fmt::print("written  {}\n", (options->folder / "scene.json").string());

@@ -8,7 +8,7 @@
 
 #include "trace/error.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
 using trace::DataError;
 
@@ -135,4 +135,4 @@ std::vector<std::uint8_t> Zip::read(std::string_view name, std::uint64_t most_by
     return bytes;
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace regather::scenes {
+namespace regather::imports {
 
 /// More entries than this are refused.
 inline constexpr std::uint64_t most_zip_entries = 1'000'000;
@@ -43,4 +43,4 @@ private:
     std::vector<std::string> names_;
 };
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -11,8 +11,10 @@
 #include "meshes/mesh.h"
 #include "trace/error.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
+using scenes::Mesh;
+using scenes::Quad;
 using trace::DataError;
 using trace::UsageError;
 
@@ -27,7 +29,7 @@ constexpr float watts_a_square_metre = 25;  // Of floor below the object, all of
 ImportedScene import_mesh(const std::filesystem::path& file, const MeshImportOptions& options) {
     if (!(options.size >= 1e-3 && options.size <= 1e3))
         throw UsageError(fmt::format("--size: found {} m, expected 0.001 to 1000", options.size));
-    const Mesh mesh = read_mesh(file);
+    const Mesh mesh = scenes::read_mesh(file);
     const trace::Bounds3 bounds = trace::bounds_of(mesh.surface.vertices);
     const double extent[3]{double{bounds.max.x} - bounds.min.x, double{bounds.max.y} - bounds.min.y,
                            double{bounds.max.z} - bounds.min.z};
@@ -81,4 +83,4 @@ ImportedScene import_mesh(const std::filesystem::path& file, const MeshImportOpt
     return scene;
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -5,7 +5,7 @@
 
 #include "imports/scene_file.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
 struct MeshImportOptions {
     bool y_up = true;  ///< Of the file; OBJ and glTF say so by custom.
@@ -16,4 +16,4 @@ struct MeshImportOptions {
 /// 1e3].
 ImportedScene import_mesh(const std::filesystem::path& file, const MeshImportOptions& options = {});
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace regather::scenes {
+namespace regather::imports {
 
 std::vector<KeyFrame> keys_of(const Orbit& orbit) {
     const std::uint32_t last = orbit.frames - 1;
@@ -24,4 +24,4 @@ std::vector<KeyFrame> keys_of(const Orbit& orbit) {
     return keys;
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -6,7 +6,10 @@
 
 #include "scenes/scene.h"
 
-namespace regather::scenes {
+namespace regather::imports {
+
+using scenes::KeyFrame;
+using trace::Vec3;
 
 struct Orbit {
     Vec3 center;                                ///< [m] What the camera looks at.
@@ -18,4 +21,4 @@ struct Orbit {
 /// Keys at least every 10 degrees, so that the smooth curve through them is the circle to 0.1 %.
 std::vector<KeyFrame> keys_of(const Orbit& orbit);
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

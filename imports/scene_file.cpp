@@ -16,7 +16,7 @@
 #include "trace/error.h"
 #include "trace/file.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
 using trace::DataError;
 using trace::UsageError;
@@ -345,4 +345,4 @@ void write_scene(const ImportedScene& scene, const fs::path& folder, bool force)
     fs::rename(partial.path(), target);
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

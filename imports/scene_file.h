@@ -11,7 +11,14 @@
 #include "scenes/scene.h"
 #include "scenes/tessellation.h"
 
-namespace regather::scenes {
+namespace regather::imports {
+
+using scenes::Camera;
+using scenes::KeyFrame;
+using scenes::Material;
+using scenes::MaterialKind;
+using scenes::Surface;
+using trace::Vec3;
 
 struct ImportedMesh {
     std::uint32_t material = 0;  ///< Index into ImportedScene::materials.
@@ -56,4 +63,4 @@ void check_scene_folder(const std::filesystem::path& folder, bool force);
 /// are not finite, a material index or name that is wrong; std::runtime_error when the disk refuses.
 void write_scene(const ImportedScene& scene, const std::filesystem::path& folder, bool force = false);
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

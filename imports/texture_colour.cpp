@@ -12,7 +12,9 @@
 #include "scenes/document.h"
 #include "trace/error.h"
 
-namespace regather::scenes {
+namespace regather::imports {
+
+using scenes::in_quotes;
 
 namespace {
 
@@ -70,4 +72,4 @@ trace::Vec3 mean_colour(std::span<const std::uint8_t> bytes, const std::string& 
             static_cast<float>(sum[2] / weight)};
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

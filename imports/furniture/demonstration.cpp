@@ -15,8 +15,9 @@
 #include "meshes/weld.h"
 #include "trace/error.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
+using scenes::Quad;
 using trace::DataError;
 using trace::UsageError;
 
@@ -163,4 +164,4 @@ ImportedScene import_furniture(std::span<const fs::path> files) {
     return scene;
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

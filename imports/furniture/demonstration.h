@@ -7,10 +7,10 @@
 
 #include "imports/scene_file.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
 /// `catalogues` are .sh3f files, or folders of them. Authors and licences of the models used stand in the
 /// scene. Throws trace::DataError when a catalogue is damaged, or none has one of the models.
 ImportedScene import_furniture(std::span<const std::filesystem::path> catalogues);
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -5,7 +5,7 @@
 
 #include "scenes/document.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
 namespace {
 
@@ -81,4 +81,4 @@ std::string FurnitureCatalogue::creator_of(const std::string& model) const {
     return "";
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

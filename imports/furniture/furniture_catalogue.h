@@ -8,7 +8,7 @@
 
 #include "imports/archive.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
 class FurnitureCatalogue {
 public:
@@ -29,4 +29,4 @@ private:
 /// the next are not joined.
 std::map<std::string, std::string, std::less<>> read_properties(std::string_view text);
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -19,8 +19,11 @@
 #include "trace/error.h"
 #include "trace/file.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
+using scenes::Mesh;
+using scenes::MtlTerms;
+using scenes::ObjContents;
 using trace::DataError;
 
 namespace {
@@ -235,7 +238,7 @@ FurnitureModel read_furniture(const Zip& zip, const std::string& name) {
     const auto fail = [&](std::string_view found, std::string_view expected) {
         throw DataError(fmt::format("{}: {}: found {}, expected {}", zip.archive(), entry, found, expected));
     };
-    const ObjContents contents = check_obj(text);
+    const ObjContents contents = scenes::check_obj(text);
     if (!contents.damage.empty()) fail(contents.damage, "a whole OBJ model");
 
     const TemporaryFolder temporary;
@@ -252,7 +255,7 @@ FurnitureModel read_furniture(const Zip& zip, const std::string& name) {
     }
     Mesh mesh;
     try {
-        mesh = read_mesh(temporary.path() / "model.obj");
+        mesh = scenes::read_mesh(temporary.path() / "model.obj");
     } catch (const DataError& error) {
         std::string_view why = error.what();  // the temporary folder's name says nothing to anybody
         const std::size_t found = why.find(": ");
@@ -360,4 +363,4 @@ void add_parts(std::vector<FurnitureModel::Part> parts, MaterialTable& table, Im
     }
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -12,7 +12,7 @@
 #include "imports/homes/home.h"
 #include "imports/scene_file.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
 /// More is refused: bytes of a model or a library in the archive, triangles of all pieces together.
 inline constexpr std::uint64_t most_model_bytes = 64u << 20;
@@ -75,4 +75,4 @@ std::vector<FurnitureModel::Part> placed(const FurnitureModel& model, const Plac
 /// Appends the parts: normals smoothed, glass made solid.
 void add_parts(std::vector<FurnitureModel::Part> parts, MaterialTable& table, ImportedScene& scene);
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -9,8 +9,9 @@
 #include "scenes/document.h"
 #include "trace/error.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
+using scenes::in_quotes;
 using trace::DataError;
 
 namespace {
@@ -290,4 +291,4 @@ Home read_home(std::span<const std::uint8_t> xml, const std::string& file) {
     return Reader(file).read(root);
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

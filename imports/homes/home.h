@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace regather::scenes {
+namespace regather::imports {
 
 /// What a home may have, and how long, far or high anything in it may be [cm]. More is refused.
 inline constexpr std::size_t most_home_items = 20'000;  ///< Walls, rooms, pieces, points of a room: each.
@@ -98,4 +98,4 @@ struct Home {
 /// a missing or senseless number, a piece without a model.
 Home read_home(std::span<const std::uint8_t> xml, const std::string& file);
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -2,7 +2,9 @@
 
 #include <array>
 
-namespace regather::scenes {
+namespace regather::imports {
+
+using trace::Vec3;
 
 namespace {
 
@@ -165,4 +167,4 @@ const MtlTerms* java3d_material(std::string_view name) {
     return nullptr;
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

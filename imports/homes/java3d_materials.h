@@ -6,9 +6,11 @@
 
 #include "scenes/mesh_material.h"
 
-namespace regather::scenes {
+namespace regather::imports {
+
+using scenes::MtlTerms;
 
 /// Null for a name that is not in the table.
 const MtlTerms* java3d_material(std::string_view name);
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace regather::scenes {
+namespace regather::imports {
 
 namespace {
 
@@ -61,4 +61,4 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const PlanPoint>
     return triangles;
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -8,7 +8,7 @@
 
 #include "imports/homes/home.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
 /// Twice the area, positive when the corners run counter-clockwise with y up (clockwise on a plan, where y is
 /// down).
@@ -18,4 +18,4 @@ double twice_area(std::span<const PlanPoint> polygon);
 /// over. A simple polygon is covered exactly; one that crosses itself gives some triangles, and ends.
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const PlanPoint> polygon);
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -16,8 +16,9 @@
 #include "trace/error.h"
 #include "trace/word.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
+using scenes::in_quotes;
 using trace::DataError;
 using trace::UsageError;
 
@@ -379,4 +380,4 @@ ImportedScene import_sweethome3d(const std::filesystem::path& archive, const std
     return scene;
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -8,7 +8,7 @@
 
 #include "imports/scene_file.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
 inline constexpr std::uint64_t most_home_bytes = 64u << 20;  ///< Of the XML.
 
@@ -19,4 +19,4 @@ std::vector<std::string> homes_in(const std::filesystem::path& archive);
 /// trace::UsageError for a home that it does not have, naming the nearest.
 ImportedScene import_sweethome3d(const std::filesystem::path& archive, const std::string& home);
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

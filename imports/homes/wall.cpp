@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-namespace regather::scenes {
+namespace regather::imports {
 
 namespace {
 
@@ -267,4 +267,4 @@ WallSurfaces extrude(const HomeWall& wall, const WallOutline& outline, double el
     return surfaces;
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -9,7 +9,10 @@
 #include "imports/homes/home.h"
 #include "scenes/tessellation.h"
 
-namespace regather::scenes {
+namespace regather::imports {
+
+using scenes::Surface;
+using trace::Vec3;
 
 /// A place of the plan, `elevation` above its ground, in the scene [m].
 Vec3 in_metres(PlanPoint p, double elevation);
@@ -41,4 +44,4 @@ struct WallSurfaces {
 WallSurfaces extrude(const HomeWall& wall, const WallOutline& outline, double elevation,
                      std::span<const WallHole> holes);
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

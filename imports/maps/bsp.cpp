@@ -12,7 +12,9 @@
 #include "scenes/document.h"
 #include "trace/error.h"
 
-namespace regather::scenes {
+namespace regather::imports {
+
+using scenes::in_quotes;
 
 namespace {
 
@@ -303,4 +305,4 @@ std::vector<BspEntity> read_entities(std::string_view text, std::string_view nam
     return entities;
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

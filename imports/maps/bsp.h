@@ -13,7 +13,7 @@
 
 #include "trace/vec.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
 using trace::Vec3;
 
@@ -107,4 +107,4 @@ Bsp read_bsp(std::span<const std::uint8_t> bytes, std::string_view name);
 /// Entities of the text form { "key" "value" ... } .... DataError names the line.
 std::vector<BspEntity> read_entities(std::string_view text, std::string_view name);
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace regather::scenes {
+namespace regather::imports {
 
 namespace {
 
@@ -135,4 +135,4 @@ std::optional<float> FreeSpace::floor_below(Vec3 point, float reach) const {
     return point.z - reach * static_cast<float>(*meeting(point, end, triangles_[*floor]));
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -9,7 +9,7 @@
 #include "imports/maps/bsp.h"
 #include "trace/bounds.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
 /// Keeps references to both: they must live as long.
 class FreeSpace {
@@ -38,4 +38,4 @@ private:
     std::vector<trace::Bounds3> blocks_;  // Of so many triangles one after the other: neighbours, mostly.
 };
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

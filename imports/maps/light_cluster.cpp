@@ -9,7 +9,9 @@
 
 #include "trace/bounds.h"
 
-namespace regather::scenes {
+namespace regather::imports {
+
+using trace::Vec3;
 
 namespace {
 
@@ -108,4 +110,4 @@ std::vector<std::vector<Surface>> cluster_lights(std::span<const Surface> surfac
     return result;
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -7,7 +7,9 @@
 
 #include "scenes/tessellation.h"
 
-namespace regather::scenes {
+namespace regather::imports {
+
+using scenes::Surface;
 
 /// For each surface its parts. At first one part for triangles that hang together (corners of equal
 /// position); while all surfaces together have more than `most` parts, those of one surface whose boxes'
@@ -16,4 +18,4 @@ namespace regather::scenes {
 /// triangles.
 std::vector<std::vector<Surface>> cluster_lights(std::span<const Surface> surfaces, std::size_t most);
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -7,7 +7,7 @@
 
 #include "imports/maps/pk3.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
 namespace {
 
@@ -138,4 +138,4 @@ double map_radiance(const BspTexture& texture, const ShaderScript* script) {
     return (value * 0.25 * 3 + sun) / light_map_white;
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -9,7 +9,10 @@
 #include "imports/maps/shader_script.h"
 #include "scenes/scene.h"
 
-namespace regather::scenes {
+namespace regather::imports {
+
+using scenes::Material;
+using scenes::MaterialKind;
 
 /// What becomes of a surface. `open`: seen through by nature or never drawn (fog, triggers, flames, fences),
 /// left out.
@@ -34,4 +37,4 @@ inline constexpr double light_map_white = 255.0 / 4;
 /// do, and sky is 100.
 double map_radiance(const BspTexture& texture, const ShaderScript* script);
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -22,7 +22,9 @@
 #include "trace/error.h"
 #include "trace/word.h"
 
-namespace regather::scenes {
+namespace regather::imports {
+
+using scenes::in_quotes;
 
 namespace {
 
@@ -460,4 +462,4 @@ OpenArenaMap import_openarena(std::span<const std::filesystem::path> archives,
     return result;
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

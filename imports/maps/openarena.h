@@ -10,7 +10,7 @@
 
 #include "imports/scene_file.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
 /// 56 units are a player, 1.75 m.
 inline constexpr float metres_a_game_unit = 1.0f / 32;
@@ -35,4 +35,4 @@ std::vector<std::string> openarena_maps(std::span<const std::filesystem::path> a
 OpenArenaMap import_openarena(std::span<const std::filesystem::path> archives,
                               const OpenArenaOptions& options);
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace regather::scenes {
+namespace regather::imports {
 
 namespace {
 
@@ -126,4 +126,4 @@ Surface tessellate(const ControlNet& net, std::uint32_t subdivision) {
     return surface;
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -8,7 +8,10 @@
 
 #include "scenes/tessellation.h"
 
-namespace regather::scenes {
+namespace regather::imports {
+
+using scenes::Surface;
+using trace::Vec3;
 
 /// Control point (column, row) is points[row * width + column]. Width and height are odd, >= 3.
 struct ControlNet {
@@ -25,4 +28,4 @@ std::uint64_t triangle_count(const ControlNet& net, std::uint32_t subdivision);
 /// vertices on it to the last bit. Zero-area triangles of collapsed edges are left in.
 Surface tessellate(const ControlNet& net, std::uint32_t subdivision);
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace regather::scenes {
+namespace regather::imports {
 
 std::string lower_case(std::string_view text) {
     std::string result(text);
@@ -40,4 +40,4 @@ std::string Pk3Archives::archive(const std::string& name) const {
     return std::filesystem::path(zips_[entries_.at(name).zip].archive()).filename().string();
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -10,7 +10,7 @@
 
 #include "imports/archive.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
 /// ASCII letters only.
 std::string lower_case(std::string_view text);
@@ -37,4 +37,4 @@ private:
     std::map<std::string, Entry> entries_;
 };
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -9,7 +9,9 @@
 #include "scenes/document.h"
 #include "trace/error.h"
 
-namespace regather::scenes {
+namespace regather::imports {
+
+using scenes::in_quotes;
 
 namespace {
 
@@ -195,4 +197,4 @@ std::vector<ShaderScript> read_shader_scripts(std::string_view text, std::string
     return Parser(text, file).parse();
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

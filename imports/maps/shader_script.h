@@ -10,7 +10,7 @@
 
 #include "trace/vec.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
 struct ShaderScript {
     std::string name;                         ///< As in the file: "textures/e7/e7bricks01".
@@ -35,4 +35,4 @@ struct ShaderScript {
 /// number counts as 0.
 std::vector<ShaderScript> read_shader_scripts(std::string_view text, std::string_view file);
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

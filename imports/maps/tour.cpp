@@ -10,7 +10,9 @@
 
 #include "scenes/camera_path.h"
 
-namespace regather::scenes {
+namespace regather::imports {
+
+using scenes::Scene;
 
 namespace {
 
@@ -211,7 +213,7 @@ bool is_clear(const std::vector<KeyFrame>& keys, std::uint32_t frames, const Fre
     scene.frames = frames;
     Vec3 before = keys.front().position;
     for (std::uint32_t frame = 0; frame < frames; ++frame) {
-        const Camera camera = camera_at(scene, frame);
+        const Camera camera = scenes::camera_at(scene, frame);
         if (length(camera.target - camera.position) < 0.1f * look_ahead) return false;
         if (!space.clear(before, camera.position, camera_body)) return false;
         before = camera.position;
@@ -317,4 +319,4 @@ Tour plan_tour(std::span<const Stop> stops, const FreeSpace& space,
     return tour;
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

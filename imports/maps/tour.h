@@ -8,7 +8,10 @@
 #include "imports/maps/free_space.h"
 #include "scenes/scene.h"
 
-namespace regather::scenes {
+namespace regather::imports {
+
+using scenes::Camera;
+using scenes::KeyFrame;
 
 /// Where a player can stand, at eye height.
 struct Stop {
@@ -37,4 +40,4 @@ struct Tour {
 Tour plan_tour(std::span<const Stop> stops, const FreeSpace& space,
                std::span<const std::uint32_t> kind_of_triangle, double most_length);
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -13,7 +13,7 @@
 #include "trace/error.h"
 #include "trace/file.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
 using Entries = std::vector<std::pair<std::string, std::string>>;
 
@@ -49,4 +49,4 @@ std::string data_error(Call call) {
 #define REQUIRE_FILE_OF(package, file) \
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "skipped: package " package " is not installed"
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -6,7 +6,7 @@
 #include "tests/imports/archive.h"
 #include "tests/scratch.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 namespace {
 
 using ::testing::ElementsAre;
@@ -110,4 +110,4 @@ TEST(Zip, WhatIsNoArchiveIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -8,7 +8,7 @@
 #include "tests/imports/bsp_text.h"
 #include "trace/error.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 namespace {
 
 using ::testing::HasSubstr;
@@ -128,4 +128,4 @@ TEST(Bsp, EntityTextIsReadByThePairAndRefusedWithItsLine) {
 }
 
 }  // namespace
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -9,7 +9,7 @@
 
 #include "trace/vec.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 
 /// Bytes of a map, lump by lump; records are appended as the file has them.
 class BspText {
@@ -119,4 +119,4 @@ inline BspText hand_made_map() {
     return map;
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -8,7 +8,7 @@
 #include "tests/imports/archive.h"
 #include "tests/scratch.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 namespace {
 
 using ::testing::HasSubstr;
@@ -71,4 +71,4 @@ TEST(FurniturePackage, GlassAndGlossOnATableWithAuthorsAndLicences) {
 }
 
 }  // namespace
-}  // namespace regather::scenes
+}  // namespace regather::imports

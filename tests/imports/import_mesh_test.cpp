@@ -11,7 +11,9 @@
 #include "tests/scratch.h"
 #include "trace/bounds.h"
 
-namespace regather::scenes {
+namespace regather::imports {
+
+using scenes::Scene;
 namespace {
 
 using ::testing::HasSubstr;
@@ -77,7 +79,7 @@ TEST(ImportMesh, MaterialsAreTheFilesAndTheSceneLoads) {
     trace::write_file(scratch / "m.obj", model);
     trace::write_file(scratch / "m.mtl", library);
     write_scene(import_mesh(scratch / "m.obj"), scratch / "out");
-    const Scene scene = load_scene((scratch / "out/scene.json").string());
+    const Scene scene = scenes::load_scene((scratch / "out/scene.json").string());
     EXPECT_EQ(scene.triangles.size(), 4u + 128 + 2);
     EXPECT_EQ(scene.lights.size(), 1u);
     EXPECT_GE(scene.frames, 30u);
@@ -119,4 +121,4 @@ TEST(Orbit, EveryKeyIsOnTheCircleAndTheFramesRise) {
 }
 
 }  // namespace
-}  // namespace regather::scenes
+}  // namespace regather::imports

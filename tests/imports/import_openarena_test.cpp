@@ -20,7 +20,9 @@
 #include "tests/imports/bsp_text.h"
 #include "trace/error.h"
 
-namespace regather::scenes {
+namespace regather::imports {
+
+using scenes::Scene;
 namespace {
 
 namespace fs = std::filesystem;
@@ -88,7 +90,7 @@ TEST_F(OpenArena, AHandMadeMapBecomesAScene) {
     for (const auto& [a, b, c] : lamp.surface.triangles) {
         const auto& v = lamp.surface.vertices;
         EXPECT_LT(cross(v[b] - v[a], v[c] - v[a]).z, 0);  // It faces down, and 64 units are 2 m.
-        EXPECT_NEAR(triangle_area(v[a], v[b], v[c]), 2, 1e-6);
+        EXPECT_NEAR(scenes::triangle_area(v[a], v[b], v[c]), 2, 1e-6);
         EXPECT_EQ(v[a].z, 4);
     }
     for (const ImportedMesh& mesh : scene.meshes)
@@ -108,7 +110,7 @@ TEST_F(OpenArena, TheSceneFileLoadsWithTheSameCounts) {
     const auto file = archive("a.pk3", {{"maps/hand.bsp", map_text(hand_made_map())}});
     const OpenArenaMap map = import_openarena(std::vector{file}, {.map = "hand"});
     write_scene(map.scene, folder_ / "scene");
-    const Scene scene = load_scene((folder_ / "scene" / "scene.json").string());
+    const Scene scene = scenes::load_scene((folder_ / "scene" / "scene.json").string());
     EXPECT_EQ(scene.triangles.size(), map.scene.triangle_count() + 2);
     EXPECT_EQ(scene.lights.size(), 1u);
     EXPECT_EQ(scene.frames, map.scene.frames);
@@ -288,9 +290,9 @@ TEST_P(RealMaps, HasTheTrianglesLightsAndAPathThatNeverLeavesTheOpen) {
     const std::string entry = std::string("maps/") + GetParam().map + ".bsp";
     const Bsp bsp = read_bsp(Zip::open(file).read(entry, 1 << 28), entry);
     const FreeSpace space(bsp, {});
-    Vec3 before = camera_at(scene, 0).position;
+    Vec3 before = scenes::camera_at(scene, 0).position;
     for (std::uint32_t frame = 0; frame < scene.frames; ++frame) {
-        const Vec3 at = camera_at(scene, frame).position;
+        const Vec3 at = scenes::camera_at(scene, frame).position;
         EXPECT_TRUE(space.clear(at * 32, 2.9f)) << frame;
         EXPECT_LT(length(at - before), 1) << frame;
         before = at;
@@ -305,4 +307,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& param) { return std::string(param.param.map); });
 
 }  // namespace
-}  // namespace regather::scenes
+}  // namespace regather::imports

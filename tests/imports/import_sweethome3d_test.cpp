@@ -11,7 +11,7 @@
 #include "tests/imports/archive.h"
 #include "tests/scratch.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 namespace {
 
 using ::testing::ElementsAre;
@@ -297,4 +297,4 @@ TEST(SweethomePackage, TheTwoBedroomApartmentIsAllThere) {
 }
 
 }  // namespace
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace regather::scenes {
+namespace regather::imports {
 namespace {
 
 // x^2 + z^2 = 1 is not a quadratic; the parabola through the same control points (1,0), (1,1), (0,1) is
@@ -103,4 +103,4 @@ TEST(Patch, ACollapsedEdgeHasFiniteUnitNormals) {
 }
 
 }  // namespace
-}  // namespace regather::scenes
+}  // namespace regather::imports

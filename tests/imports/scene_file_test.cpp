@@ -13,7 +13,11 @@
 #include "tests/imports/archive.h"
 #include "tests/scratch.h"
 
-namespace regather::scenes {
+namespace regather::imports {
+
+using scenes::Box;
+using scenes::Scene;
+using scenes::Sphere;
 namespace {
 
 using ::testing::HasSubstr;
@@ -63,7 +67,7 @@ TEST(SceneFile, TheLoaderReadsWhatWasWritten) {
     const Scratch scratch;
     const ImportedScene written = small_scene();
     write_scene(written, scratch / "out");
-    const Scene scene = load_scene((scratch / "out/scene.json").string());
+    const Scene scene = scenes::load_scene((scratch / "out/scene.json").string());
     EXPECT_EQ(scene.name, "small");
     EXPECT_EQ(scene.origin, written.origin);
     EXPECT_EQ(scene.licence, "CC0");
@@ -96,7 +100,7 @@ TEST(SceneFile, AnyFirstByteOfTheFirstVertexIsReadBack) {
         for (Vec3& p : scene.meshes[0].surface.vertices)
             p.x = std::bit_cast<float>((std::bit_cast<std::uint32_t>(p.x + 1) & ~0xffu) | low);
         write_scene(scene, scratch / "out");
-        const Scene read = load_scene((scratch / "out/scene.json").string());
+        const Scene read = scenes::load_scene((scratch / "out/scene.json").string());
         ASSERT_EQ(read.triangles.size(), 12u + 2) << low;
         EXPECT_EQ(read.vertices[read.triangles[0][0]],
                   scene.meshes[0].surface.vertices[scene.meshes[0].surface.triangles[0][0]]);
@@ -120,9 +124,9 @@ TEST(SceneFile, AFolderThatHoldsSomethingIsNotReplacedUnlessForced) {
     ImportedScene other = small_scene();
     other.name = "other";
     EXPECT_THROW(write_scene(other, scratch / "out"), trace::UsageError);
-    EXPECT_EQ(load_scene((scratch / "out/scene.json").string()).name, "small");
+    EXPECT_EQ(scenes::load_scene((scratch / "out/scene.json").string()).name, "small");
     write_scene(other, scratch / "out/", true);
-    EXPECT_EQ(load_scene((scratch / "out/scene.json").string()).name, "other");
+    EXPECT_EQ(scenes::load_scene((scratch / "out/scene.json").string()).name, "other");
 }
 
 TEST(SceneFile, EvenForceLeavesOtherPeoplesFoldersAlone) {
@@ -163,4 +167,4 @@ TEST(SceneFile, NamesArePlain) {
 }
 
 }  // namespace
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -8,7 +8,7 @@
 
 #include "trace/error.h"
 
-namespace regather::scenes {
+namespace regather::imports {
 namespace {
 
 using ::testing::ElementsAre;
@@ -86,4 +86,4 @@ TEST(ShaderScript, MissingAndSurplusBracesAreRefusedWithTheirLine) {
 }
 
 }  // namespace
-}  // namespace regather::scenes
+}  // namespace regather::imports

@@ -9,7 +9,12 @@
 #include "meshes/weld.h"
 #include "trace/bounds.h"
 
-namespace regather::scenes {
+namespace regather::imports {
+
+using scenes::as_solid;
+using scenes::Box;
+using scenes::Quad;
+using scenes::Sphere;
 namespace {
 
 HomeWall wall(std::string id, PlanPoint start, PlanPoint end, double thickness = 10) {
@@ -218,4 +223,4 @@ TEST(Weld, SimplifyingKeepsTheShapeAndDropsDetail) {
 }
 
 }  // namespace
-}  // namespace regather::scenes
+}  // namespace regather::imports
