@@ -1,30 +1,40 @@
 # The two commands of the README. Thin: CMake builds, the binary works.
-#   make run    installs what is missing, builds, runs the main job at a small scale
-#   make test   the same set-up, then every test
+#   make run    installs what is missing, builds the binary, runs the main job at a small scale
+#   make test   the same for the tests, then all but the slow ones (make test-slow)
 PRESET ?= release
 OUT ?= out/room
+build = build/$(PRESET)
 
-.PHONY: run test setup build bench clean scenes-packages
+.PHONY: run test test-slow tests binary bench clean scenes-packages
 
-run: build
-	build/$(PRESET)/regather run scenes/experiments/room-small.json -o $(OUT)
+run: binary
+	$(build)/regather run scenes/experiments/room-small.json -o $(OUT)
 
-test: build
-	ctest --preset $(PRESET)
+test: tests
+	ctest --preset $(PRESET) -LE slow
 
-build: setup
-	cmake --preset $(PRESET)
-	cmake --build --preset $(PRESET)
+test-slow: tests
+	ctest --preset $(PRESET) -L slow
 
-setup:
+binary:
 	@cmake/install_packages.sh packages.txt
+	cmake --preset $(PRESET) -D REGATHER_TESTS=OFF -D REGATHER_BENCHMARKS=OFF
+	cmake --build --preset $(PRESET) --target regather
+
+tests:
+	@cmake/install_packages.sh packages.txt packages-test.txt
+	cmake --preset $(PRESET) -D REGATHER_TESTS=ON -D REGATHER_BENCHMARKS=OFF
+	cmake --build --preset $(PRESET)
 
 # Scenes of others, for `regather import`: 0.5 GB, and never needed by run or test.
 scenes-packages:
 	@cmake/install_packages.sh packages-scenes.txt
 
-bench: build
-	bench/run.sh build/$(PRESET)
+bench:
+	@cmake/install_packages.sh packages.txt packages-bench.txt
+	cmake --preset $(PRESET) -D REGATHER_TESTS=OFF -D REGATHER_BENCHMARKS=ON
+	cmake --build --preset $(PRESET)
+	bench/run.sh $(build)
 
 clean:
 	rm -rf build out

@@ -1,7 +1,7 @@
 #!/bin/sh
-# install_packages.sh LIST: installs the Debian packages of LIST that are missing; silent when none is.
+# install_packages.sh LIST...: installs the Debian packages of the lists that are missing; silent when none is.
 set -eu
-list=$(sed -e 's/#.*//' "$1")
+list=$(sed -e 's/#.*//' "$@" | sort -u)
 missing=""
 for package in $list; do
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing="$missing $package"
