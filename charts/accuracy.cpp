@@ -9,8 +9,9 @@
 #include "charts/caption.h"
 #include "charts/figure.h"
 #include "charts/series.h"
+#include "results/parameters.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
 
 /// Of two middle values the mean.
@@ -20,28 +21,28 @@ double median(std::vector<double> values) {
     return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-bool complete(const SamplingRow& row) {
+bool complete(const results::SamplingRow& row) {
     return row.set_sampling.value_or(0) > 0 && row.misses && row.exact_misses.value_or(0) > 0 && row.seconds;
 }
 
-bool same_order(const SamplingRow& a, const SamplingRow& b) {
+bool same_order(const results::SamplingRow& a, const results::SamplingRow& b) {
     return a.scene == b.scene && a.ordering == b.ordering && a.parameters == b.parameters;
 }
 
 /// As the row says, else by its interval.
-std::optional<bool> covered(const SamplingRow& row) {
+std::optional<bool> covered(const results::SamplingRow& row) {
     if (row.covered || !row.misses_low || !row.misses_high) return row.covered;
     return *row.misses_low <= *row.exact_misses && *row.exact_misses <= *row.misses_high;
 }
 
-Accuracy summary(std::span<const SamplingRow* const> rows) {
+Accuracy summary(std::span<const results::SamplingRow* const> rows) {
     Accuracy out;
     out.first = rows.front();
     out.set_sampling = *rows.front()->set_sampling;
     out.runs = rows.size();
     std::vector<double> seconds, exact_seconds;
     double squares = 0;
-    for (const SamplingRow* row : rows) {
+    for (const results::SamplingRow* row : rows) {
         const auto exact = static_cast<double>(*row->exact_misses);
         const double error = std::abs(static_cast<double>(*row->misses) - exact) / exact;
         squares += error * error;
@@ -59,29 +60,14 @@ Accuracy summary(std::span<const SamplingRow* const> rows) {
     return out;
 }
 
-/// "tile=16" of "hilbert:tile=16,bits=10".
-Count parameter(const std::string& parameters, const std::string& name) {
-    const auto begins = [&](std::size_t at) {
-        return at == 0 || parameters.find_first_of(":,+ ", at - 1) == at - 1;
-    };
-    std::size_t at = parameters.find(name + '=');
-    while (at != parameters.npos && !begins(at)) at = parameters.find(name + '=', at + 1);
-    if (at == parameters.npos) return {};
-    std::uint64_t value = 0;
-    std::size_t digit = at + name.size() + 1;
-    for (; digit < parameters.size() && parameters[digit] >= '0' && parameters[digit] <= '9'; ++digit)
-        value = 10 * value + static_cast<std::uint64_t>(parameters[digit] - '0');
-    return value == 0 ? Count() : value;
-}
-
 /// As series.h knows it. The cache is any: a point stands for all caches.
-Row subject_of(const SamplingRow& row) {
-    Row out;
+results::Row subject_of(const results::SamplingRow& row) {
+    results::Row out;
     out.scene = row.scene;
     out.ordering = row.ordering;
     out.parameters = row.parameters;
-    out.tile = parameter(row.parameters, "tile");
-    out.bins = parameter(row.parameters, "bins");
+    out.tile = results::parameter(row.parameters, "tile");
+    out.bins = results::parameter(row.parameters, "bins");
     out.cache_bytes = out.line_bytes = out.ways = 1;
     out.traffic_bytes = 0;
     return out;
@@ -89,18 +75,18 @@ Row subject_of(const SamplingRow& row) {
 
 /// A curve for each ordering: series.h shows one tile size at a time, so it is asked until all were shown.
 struct Named {
-    const SamplingRow* row;
+    const results::SamplingRow* row;
     Curve curve;
 };
-std::vector<Named> named(std::span<const Accuracy> all, std::vector<Row>& subjects) {
-    std::vector<const SamplingRow*> orders;
+std::vector<Named> named(std::span<const Accuracy> all, std::vector<results::Row>& subjects) {
+    std::vector<const results::SamplingRow*> orders;
     for (const Accuracy& one : all)
         if (orders.empty() || !same_order(*orders.back(), *one.first)) orders.push_back(one.first);
-    for (const SamplingRow* order : orders) subjects.push_back(subject_of(*order));
+    for (const results::SamplingRow* order : orders) subjects.push_back(subject_of(*order));
     std::vector<bool> shown(orders.size());
     std::vector<Named> out(orders.size());
     while (std::find(shown.begin(), shown.end(), false) != shown.end()) {
-        std::vector<Row> rest;
+        std::vector<results::Row> rest;
         std::vector<std::size_t> places;
         for (std::size_t i = 0; i < orders.size(); ++i)
             if (!shown[i]) {
@@ -158,13 +144,13 @@ std::string rates_text(std::span<const Accuracy> all) {
 
 }  // namespace
 
-std::vector<Accuracy> accuracies(std::span<const SamplingRow> rows) {
-    std::vector<std::vector<const SamplingRow*>> orders;
-    for (const SamplingRow& row : rows) {
+std::vector<Accuracy> accuracies(std::span<const results::SamplingRow> rows) {
+    std::vector<std::vector<const results::SamplingRow*>> orders;
+    for (const results::SamplingRow& row : rows) {
         if (!complete(row)) continue;
         auto own = std::find_if(orders.begin(), orders.end(),
                                 [&](const auto& order) { return same_order(*order.front(), row); });
-        if (own == orders.end()) own = orders.insert(own, std::vector<const SamplingRow*>());
+        if (own == orders.end()) own = orders.insert(own, std::vector<const results::SamplingRow*>());
         own->push_back(&row);
     }
     std::vector<Accuracy> out;
@@ -179,7 +165,7 @@ std::vector<Accuracy> accuracies(std::span<const SamplingRow> rows) {
     return out;
 }
 
-std::string accuracy_table(std::span<const SamplingRow> rows) {
+std::string accuracy_table(std::span<const results::SamplingRow> rows) {
     const std::vector<Accuracy> all = accuracies(rows);
     if (all.empty()) return "";
     std::string out = fmt::format("{:<30}  {:>7}  {:>5}  {:>9}  {:>11}  {:>8}  {:>16}\n", "ordering", "rate",
@@ -214,7 +200,7 @@ Chart sampling_error(const ChartKind& kind, const Rows& rows, const ChartOptions
     coverage.height = 120;
     std::vector<double> seconds, errors;
     double least_covered = 90;
-    std::vector<Row> subjects;
+    std::vector<results::Row> subjects;
     std::vector<Curve> drawn;
     for (const Named& order : named(all, subjects)) {
         Line above = line_of(order.curve), below = above;
@@ -256,9 +242,9 @@ Chart sampling_error(const ChartKind& kind, const Rows& rows, const ChartOptions
     Chart chart;
     chart.title = kind.title;
     const std::string parts[] = {caption(drawn, ""), rates_text(all)};
-    chart.caption = joined(parts, " · ");
+    chart.caption = results::joined(parts, " · ");
     compose(chart, figure);
     return chart;
 }
 
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -9,11 +9,11 @@
 
 #include "charts/chart.h"
 
-namespace regather::results {
+namespace regather::charts {
 
 /// All runs of one ordering at one rate, over seeds and caches.
 struct Accuracy {
-    const SamplingRow* first = nullptr;  ///< For the ordering's name.
+    const results::SamplingRow* first = nullptr;  ///< For the ordering's name.
     std::uint64_t set_sampling = 1;
     std::size_t runs = 0;
     double rms_error = 0,
@@ -25,11 +25,11 @@ struct Accuracy {
 
 /// In the order of the orderings' first appearance, then by falling rate. Rows without a rate, misses, exact
 /// misses or seconds are left out. Rows must outlive the result.
-std::vector<Accuracy> accuracies(std::span<const SamplingRow> rows);
+std::vector<Accuracy> accuracies(std::span<const results::SamplingRow> rows);
 
 /// For a terminal, at most 100 characters wide. Empty without rows.
-std::string accuracy_table(std::span<const SamplingRow> rows);
+std::string accuracy_table(std::span<const results::SamplingRow> rows);
 
 Chart sampling_error(const ChartKind& kind, const Rows& rows, const ChartOptions& options);
 
-}  // namespace regather::results
+}  // namespace regather::charts

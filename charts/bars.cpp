@@ -9,27 +9,27 @@
 #include "charts/series.h"
 #include "trace/error.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
 
 struct Class {
     const char* label;
-    Count Row::*field;
+    results::Count results::Row::*field;
     const char *colour, *text_colour;
 };
 constexpr Class classes[] = {
-    {"compulsory: first touch", &Row::compulsory, "#c8c8c8", "#000000"},
-    {"capacity: a larger cache would hit", &Row::capacity, "#0072b2", "#ffffff"},
-    {"conflict: full associativity would hit", &Row::conflict, "#e69f00", "#000000"},
+    {"compulsory: first touch", &results::Row::compulsory, "#c8c8c8", "#000000"},
+    {"capacity: a larger cache would hit", &results::Row::capacity, "#0072b2", "#ffffff"},
+    {"conflict: full associativity would hit", &results::Row::conflict, "#e69f00", "#000000"},
 };
 constexpr double line_pixels = 38, margin = 12;  // a bar's name stands above it
 
-bool classed(const Row& row) {
+bool classed(const results::Row& row) {
     return row.compulsory && row.capacity && row.conflict && row.misses;
 }
 
 /// The sum of the classes. Where all sets were simulated it must be the misses.
-double sum_of(const Row& row) {
+double sum_of(const results::Row& row) {
     const std::uint64_t sum = *row.compulsory + *row.capacity + *row.conflict;
     if (row.set_sampling.value_or(1) == 1 && sum != *row.misses)
         throw trace::DataError(fmt::format(
@@ -41,27 +41,27 @@ double sum_of(const Row& row) {
 }  // namespace
 
 Chart misses_by_class(const ChartKind& kind, const Rows& rows, const ChartOptions& options) {
-    std::vector<Row> fitting;
-    for (const Row& row : rows.measurements)
+    std::vector<results::Row> fitting;
+    for (const results::Row& row : rows.measurements)
         if (classed(row)) fitting.push_back(row);
     if (fitting.empty()) return skip(fmt::format("no row has {}", kind.needs));
-    const auto common = commonest_geometry(fitting);
+    const auto common = results::commonest_geometry(fitting);
     if (!common) return skip("no row has cache_bytes, line_bytes and ways");
-    const Geometry cache = options.cache.value_or(*common);
-    std::erase_if(fitting, [&](const Row& row) { return geometry_of(row) != cache; });
+    const results::Geometry cache = options.cache.value_or(*common);
+    std::erase_if(fitting, [&](const results::Row& row) { return results::geometry_of(row) != cache; });
     const auto shown = curves(fitting, Axis::cache, {cache, options.tile, options.bins});
-    if (shown.empty()) return skip(fmt::format("no row has the cache {}", geometry_text(cache)));
+    if (shown.empty()) return skip(fmt::format("no row has the cache {}", results::geometry_text(cache)));
 
     Plate plate;
     plate.height = line_pixels * static_cast<double>(shown.size());
     plate.vertical = {false, 0, static_cast<double>(shown.size()), {}};
     plate.bare = true;
     for (std::size_t c = 0; c < shown.size(); ++c) {
-        const Row& row = *shown[c].rows.front();
+        const results::Row& row = *shown[c].rows.front();
         const double sum = sum_of(row), base = static_cast<double>(shown.size() - 1 - c);
         plate.notes.push_back({0, base + 0.76, shown[c].label});
         plate.notes.push_back(
-            {100, base + 0.76, decimal_count(static_cast<double>(*row.misses)) + " misses", true});
+            {100, base + 0.76, results::decimal_count(static_cast<double>(*row.misses)) + " misses", true});
         double from = 0;
         for (const Class& one : classes) {
             const double share = sum == 0 ? 0 : 100 * static_cast<double>(*(row.*one.field)) / sum;
@@ -75,10 +75,10 @@ Chart misses_by_class(const ChartKind& kind, const Rows& rows, const ChartOption
     const Figure figure{"share of misses [%]", share, {std::move(plate)}, margin};
     Chart chart;
     chart.title = kind.title;
-    std::string text = geometry_text(cache);
+    std::string text = results::geometry_text(cache);
     chart.caption = caption(shown, text.insert(text.find(','), " cache"));
     compose(chart, figure);
     return chart;
 }
 
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -5,26 +5,26 @@
 #include <algorithm>
 #include <tuple>
 
-#include "charts/benefit.h"
 #include "charts/caption.h"
 #include "charts/envelope.h"
 #include "charts/figure.h"
 #include "charts/series.h"
+#include "results/benefit.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
 
 /// What must not differ between the rows of one picture.
-auto setting(const Row& row) {
+auto setting(const results::Row& row) {
     return std::tie(row.scene, row.frame, row.structure, row.layout, row.policy);
 }
 
 /// The rows of the commonest (or the asked for) line size and ways: any cache size.
-std::vector<Row> comparable(std::span<const Row> rows, const Geometry& cache) {
-    std::vector<Row> out;
-    for (const Row& row : rows) {
-        auto geometry = geometry_of(row);
-        if (!geometry || !net_traffic(row)) continue;
+std::vector<results::Row> comparable(std::span<const results::Row> rows, const results::Geometry& cache) {
+    std::vector<results::Row> out;
+    for (const results::Row& row : rows) {
+        auto geometry = results::geometry_of(row);
+        if (!geometry || !results::net_traffic(row)) continue;
         geometry->cache_bytes = cache.cache_bytes;
         if (*geometry == cache) out.push_back(row);
     }
@@ -33,9 +33,9 @@ std::vector<Row> comparable(std::span<const Row> rows, const Geometry& cache) {
 
 /// Name, colour and marker of an ordering as in the other charts, without a tile.
 Line look_of(const std::string& ordering, std::span<const Envelope> all) {
-    std::vector<Row> names;
+    std::vector<results::Row> names;
     for (const Envelope& envelope : all) {
-        Row row;
+        results::Row row;
         row.ordering = envelope.ordering;
         row.cache_bytes = row.line_bytes = row.ways = row.tile = 1;
         row.traffic_bytes = 0;
@@ -63,16 +63,16 @@ bool is_dark(const std::string& colour) {
 }  // namespace
 
 Chart net_benefit(const ChartKind& kind, const Rows& rows, const ChartOptions& options) {
-    std::vector<Row> known;
-    for (const Row& row : rows.measurements)
-        if (geometry_of(row) && net_traffic(row)) known.push_back(row);
+    std::vector<results::Row> known;
+    for (const results::Row& row : rows.measurements)
+        if (results::geometry_of(row) && results::net_traffic(row)) known.push_back(row);
     if (known.empty()) return skip(fmt::format("needs {}", kind.needs));
-    Geometry cache = options.cache.value_or(*commonest_geometry(known));
-    const std::vector<Row> shown = comparable(known, cache);
-    const std::string cache_text = geometry_text(cache);
+    results::Geometry cache = options.cache.value_or(*results::commonest_geometry(known));
+    const std::vector<results::Row> shown = comparable(known, cache);
+    const std::string cache_text = results::geometry_text(cache);
     const std::string shape = cache_text.substr(cache_text.find(',') + 2);
     if (shown.empty()) return skip(fmt::format("no row has {}", shape));
-    for (const Row& row : shown)
+    for (const results::Row& row : shown)
         if (setting(row) != setting(shown.front()))
             return skip("needs rows of one scene, frame, structure, layout and policy");
     const std::vector<Envelope> all = envelopes(shown);
@@ -87,7 +87,7 @@ Chart net_benefit(const ChartKind& kind, const Rows& rows, const ChartOptions& o
     const auto [low, high] = std::minmax_element(budgets.begin(), budgets.end());
     if (*low == *high) return skip(fmt::format("needs {}; found 1 budget with {}", kind.needs, shape));
     const Scale scale = budget_scale(*low, *high);
-    const ByteUnit unit = byte_unit(*std::max_element(nets.begin(), nets.end()));
+    const results::ByteUnit unit = results::byte_unit(*std::max_element(nets.begin(), nets.end()));
     for (double& net : nets) net /= unit.bytes;
 
     Plate band;
@@ -125,4 +125,4 @@ Chart net_benefit(const ChartKind& kind, const Rows& rows, const ChartOptions& o
     return chart;
 }
 
-}  // namespace regather::results
+}  // namespace regather::charts

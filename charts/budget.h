@@ -3,8 +3,8 @@
 #pragma once
 #include "charts/chart.h"
 
-namespace regather::results {
+namespace regather::charts {
 
 Chart net_benefit(const ChartKind& kind, const Rows& rows, const ChartOptions& options);
 
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
 
 /// The values of a column over all curves, "a, b" when there are several.
@@ -15,11 +15,11 @@ template <class Text>
 std::string all_values(std::span<const Curve> curves, Text text) {
     std::vector<std::string> seen;
     for (const Curve& curve : curves)
-        for (const Row* row : curve.rows)
+        for (const results::Row* row : curve.rows)
             if (const std::string value = text(*row);
                 !value.empty() && std::find(seen.begin(), seen.end(), value) == seen.end())
                 seen.push_back(value);
-    return joined(seen, " and ");
+    return results::joined(seen, " and ");
 }
 
 /// "frames 0:30:5, median and range" as `capture --frames` takes them; uneven ones one by one.
@@ -29,7 +29,7 @@ std::string frames_text(std::span<const Curve> curves) {
     for (const Curve& curve : curves)
         for (const auto& frames : curve.frames) {
             merged |= frames.size() > 1;
-            for (const Row* row : frames)
+            for (const results::Row* row : frames)
                 if (row->frame) seen.insert(*row->frame);
         }
     if (!merged || seen.size() < 2) return "";
@@ -48,20 +48,20 @@ std::string frames_text(std::span<const Curve> curves) {
 }  // namespace
 
 std::string caption(std::span<const Curve> curves, const std::string& cache) {
-    std::string queries = all_values(curves, [](const Row& row) {
-        return row.queries ? decimal_count(static_cast<double>(*row.queries)) : std::string();
+    std::string queries = all_values(curves, [](const results::Row& row) {
+        return row.queries ? results::decimal_count(static_cast<double>(*row.queries)) : std::string();
     });
     if (!queries.empty()) queries += " queries";
-    std::vector<std::string> parts = {all_values(curves, [](const Row& row) { return row.scene; }),
+    std::vector<std::string> parts = {all_values(curves, [](const results::Row& row) { return row.scene; }),
                                       frames_text(curves), queries};
     if (!cache.empty()) {
-        const std::string policy =
-            all_values(curves, [](const Row& row) { return row.policy == "lru" ? "LRU" : row.policy; });
+        const std::string policy = all_values(
+            curves, [](const results::Row& row) { return row.policy == "lru" ? "LRU" : row.policy; });
         parts.push_back(policy.empty() ? cache : fmt::format("{} {}", cache, policy));
-        parts.push_back(all_values(curves, [](const Row& row) { return row.structure; }));
-        parts.push_back(all_values(curves, [](const Row& row) { return row.layout; }));
+        parts.push_back(all_values(curves, [](const results::Row& row) { return row.structure; }));
+        parts.push_back(all_values(curves, [](const results::Row& row) { return row.layout; }));
     }
-    return joined(parts, " · ");
+    return results::joined(parts, " · ");
 }
 
-}  // namespace regather::results
+}  // namespace regather::charts

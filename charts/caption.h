@@ -5,9 +5,9 @@
 
 #include "charts/series.h"
 
-namespace regather::results {
+namespace regather::charts {
 
 /// `cache`: its shape, or empty where the cache does not matter.
 std::string caption(std::span<const Curve> curves, const std::string& cache);
 
-}  // namespace regather::results
+}  // namespace regather::charts

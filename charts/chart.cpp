@@ -15,54 +15,55 @@
 #include "trace/error.h"
 #include "trace/file.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
 
 constexpr ChartKind kinds_table[] = {
-    {"traffic-by-tile", "Memory traffic by tile size", "at least 2 tile sizes", RowKind::measurement,
+    {"traffic-by-tile", "Memory traffic by tile size", "at least 2 tile sizes", results::RowKind::measurement,
      traffic_by_tile},
-    {"traffic-by-cache", "Memory traffic by cache size", "at least 2 cache sizes", RowKind::measurement,
-     traffic_by_cache},
-    {"cost-by-tile", "Cost of reordering by tile size", "at least 2 tile sizes", RowKind::measurement,
-     cost_by_tile},
+    {"traffic-by-cache", "Memory traffic by cache size", "at least 2 cache sizes",
+     results::RowKind::measurement, traffic_by_cache},
+    {"cost-by-tile", "Cost of reordering by tile size", "at least 2 tile sizes",
+     results::RowKind::measurement, cost_by_tile},
     {"cost-by-bins", "Cost of reordering by number of direction bins", "at least 2 numbers of bins",
-     RowKind::measurement, cost_by_bins},
-    {"misses-by-class", "Why lines are missed", "compulsory, capacity and conflict", RowKind::measurement,
-     misses_by_class},
+     results::RowKind::measurement, cost_by_bins},
+    {"misses-by-class", "Why lines are missed", "compulsory, capacity and conflict",
+     results::RowKind::measurement, misses_by_class},
     {"net-benefit", "Best ordering by on-chip budget",
-     "at least 2 budgets, and buffer_traffic_bytes or reorder_bytes", RowKind::measurement, net_benefit},
-    {"traffic-by-frame", "Memory traffic along the camera path", "at least 2 frames", RowKind::measurement,
-     traffic_by_frame},
+     "at least 2 budgets, and buffer_traffic_bytes or reorder_bytes", results::RowKind::measurement,
+     net_benefit},
+    {"traffic-by-frame", "Memory traffic along the camera path", "at least 2 frames",
+     results::RowKind::measurement, traffic_by_frame},
     {"traffic-by-depth", "Memory traffic by depth in the tree", "rows by region and tree depth",
-     RowKind::detail, traffic_by_depth},
-    {"timeline", "Misses over the run", "rows by slice of the run", RowKind::timeline, timeline},
-    {"sampling-error", "Set sampling: error against run time", "rows of sampled runs", RowKind::sampling,
-     sampling_error},
+     results::RowKind::detail, traffic_by_depth},
+    {"timeline", "Misses over the run", "rows by slice of the run", results::RowKind::timeline, timeline},
+    {"sampling-error", "Set sampling: error against run time", "rows of sampled runs",
+     results::RowKind::sampling, sampling_error},
     {"error-by-time", "Error against run time", "rows of settings with total_seconds and rmse",
-     RowKind::convergence, error_by_time},
+     results::RowKind::convergence, error_by_time},
     {"error-by-render-time", "Error against render time", "rows of settings with render_seconds and rmse",
-     RowKind::convergence, error_by_render_time},
+     results::RowKind::convergence, error_by_render_time},
     {"efficiency", "Efficiency: 1 / (variance × run time)", "rows of settings with efficiency",
-     RowKind::convergence, efficiency},
+     results::RowKind::convergence, efficiency},
     {"bias-by-photons", "Bias and variance by number of photons",
-     "direct visualisation at 2 or more numbers of photons", RowKind::convergence, bias_by_photons},
+     "direct visualisation at 2 or more numbers of photons", results::RowKind::convergence, bias_by_photons},
     {"bias-by-k", "Bias and variance by photons of a gather",
-     "direct visualisation at 2 or more k with the photons held", RowKind::convergence, bias_by_k},
+     "direct visualisation at 2 or more k with the photons held", results::RowKind::convergence, bias_by_k},
     {"stability", "Stiff and extreme cases: error and what is allowed", "rows of the stability study",
-     RowKind::stability, stability},
+     results::RowKind::stability, stability},
 };
 
-bool has(const Rows& rows, RowKind kind) {
+bool has(const Rows& rows, results::RowKind kind) {
     switch (kind) {
-        case RowKind::detail:
+        case results::RowKind::detail:
             return !rows.details.empty();
-        case RowKind::timeline:
+        case results::RowKind::timeline:
             return !rows.timeline.empty();
-        case RowKind::sampling:
+        case results::RowKind::sampling:
             return !rows.sampling.empty();
-        case RowKind::convergence:
+        case results::RowKind::convergence:
             return !rows.convergence.empty();
-        case RowKind::stability:
+        case results::RowKind::stability:
             return !rows.stability.empty();
         default:
             return !rows.measurements.empty();
@@ -145,9 +146,9 @@ std::vector<Drawn> write_charts(const std::filesystem::path& folder, const Rows&
     return out;
 }
 
-std::vector<Drawn> write_charts(const std::filesystem::path& folder, std::span<const Row> rows,
+std::vector<Drawn> write_charts(const std::filesystem::path& folder, std::span<const results::Row> rows,
                                 std::span<const std::string> kinds, const ChartOptions& options) {
     return write_charts(folder, Rows{rows, {}, {}, {}}, kinds, options);
 }
 
-}  // namespace regather::results
+}  // namespace regather::charts

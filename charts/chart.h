@@ -8,14 +8,14 @@
 #include <string_view>
 #include <vector>
 
-#include "charts/geometry.h"
 #include "results/csv.h"
+#include "results/geometry.h"
 
-namespace regather::results {
+namespace regather::charts {
 
 struct ChartOptions {
-    std::optional<Geometry> cache;       ///< None: commonest_geometry() of the rows.
-    std::uint64_t tile = 16, bins = 16;  ///< Held where they are not the axis; series.h, Slice.
+    std::optional<results::Geometry> cache;  ///< None: commonest_geometry() of the rows.
+    std::uint64_t tile = 16, bins = 16;      ///< Held where they are not the axis; series.h, Slice.
 };
 
 /// A composed chart: what gnuplot is to draw, without the kind of file.
@@ -34,17 +34,17 @@ inline Chart skip(std::string reason) {
 
 /// All that there is to draw from.
 struct Rows {
-    std::span<const Row> measurements;
-    std::span<const DetailRow> details;
-    std::span<const TimelineRow> timeline;
-    std::span<const SamplingRow> sampling;
-    std::span<const ConvergenceRow> convergence = {};
-    std::span<const StabilityRow> stability = {};
+    std::span<const results::Row> measurements;
+    std::span<const results::DetailRow> details;
+    std::span<const results::TimelineRow> timeline;
+    std::span<const results::SamplingRow> sampling;
+    std::span<const results::ConvergenceRow> convergence = {};
+    std::span<const results::StabilityRow> stability = {};
 };
 
 struct ChartKind {
     std::string_view name, title, needs;
-    RowKind rows;  ///< What it is drawn from.
+    results::RowKind rows;  ///< What it is drawn from.
     Chart (*compose)(const ChartKind&, const Rows&, const ChartOptions&);
 };
 std::span<const ChartKind> chart_kinds();
@@ -72,7 +72,7 @@ std::vector<const ChartKind*> wanted_kinds(const Rows& rows, std::span<const std
 /// Draws the wanted kinds into `folder`, made when missing; existing files are replaced.
 std::vector<Drawn> write_charts(const std::filesystem::path& folder, const Rows& rows,
                                 std::span<const std::string> kinds, const ChartOptions& options);
-std::vector<Drawn> write_charts(const std::filesystem::path& folder, std::span<const Row> rows,
+std::vector<Drawn> write_charts(const std::filesystem::path& folder, std::span<const results::Row> rows,
                                 std::span<const std::string> kinds, const ChartOptions& options);
 
-}  // namespace regather::results
+}  // namespace regather::charts

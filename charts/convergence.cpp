@@ -9,9 +9,9 @@
 #include <tuple>
 
 #include "charts/figure.h"
-#include "charts/geometry.h"
+#include "results/geometry.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
 
 struct LadderStyle {
@@ -28,11 +28,11 @@ constexpr LadderStyle styles_table[] = {
 };
 constexpr std::string_view spare[] = {"#332288", "#44aa99", "#aa4499", "#661100", "#6699cc", "#117733"};
 
-auto picture_of(const ConvergenceRow& row) {
+auto picture_of(const results::ConvergenceRow& row) {
     return std::tie(row.scene, row.reference, row.width, row.height);
 }
 
-bool is_complete(const ConvergenceRow& row) {
+bool is_complete(const results::ConvergenceRow& row) {
     return row.total_seconds.value_or(0) > 0 && row.rmse;
 }
 
@@ -52,7 +52,7 @@ Line look_of(const Ladder& ladder, std::size_t place) {
     return line;
 }
 
-double percent_of_mean(const ConvergenceRow& row, double value) {
+double percent_of_mean(const results::ConvergenceRow& row, double value) {
     const double mean = row.mean_radiance.value_or(0);
     return mean > 0 ? 100 * value / mean : value;
 }
@@ -68,14 +68,14 @@ std::string caption_of(std::span<const Ladder> all) {
         if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(std::move(text));
     };
     for (const Ladder& ladder : all)
-        for (const ConvergenceRow* row : ladder.rows) {
+        for (const results::ConvergenceRow* row : ladder.rows) {
             add(scenes, row->width && row->height
                             ? fmt::format("{}, {}×{} pixels", row->scene, *row->width, *row->height)
                             : row->scene);
             if (row->seeds) add(seeds, fmt::format("{} seeds", *row->seeds));
         }
-    const std::string parts[] = {joined(scenes, " and "), joined(seeds, " and ")};
-    return joined(parts, " · ");
+    const std::string parts[] = {results::joined(scenes, " and "), results::joined(seeds, " and ")};
+    return results::joined(parts, " · ");
 }
 
 Line level(double y, const Scale& across, std::string label) {
@@ -89,12 +89,12 @@ Line level(double y, const Scale& across, std::string label) {
     return line;
 }
 
-using Value = std::optional<double> (*)(const ConvergenceRow&);
+using Value = std::optional<double> (*)(const results::ConvergenceRow&);
 
-std::optional<double> total(const ConvergenceRow& row) {
+std::optional<double> total(const results::ConvergenceRow& row) {
     return row.total_seconds;
 }
-std::optional<double> render(const ConvergenceRow& row) {
+std::optional<double> render(const results::ConvergenceRow& row) {
     return row.render_seconds;
 }
 
@@ -117,7 +117,7 @@ Chart over_time(const ChartKind& kind, const Rows& rows, const OverTime& what) {
         const std::size_t p = is_direct(ladder) ? 1 : 0;
         Line line = look_of(ladder, l);
         std::vector<double> x, y;
-        for (const ConvergenceRow* row : ladder.rows) {
+        for (const results::ConvergenceRow* row : ladder.rows) {
             const auto t = what.seconds(*row), v = what.height(*row);
             if (!t || !v || *t <= 0 || *v <= 0) continue;
             line.points.push_back({*t, *v});
@@ -159,7 +159,7 @@ Chart over_time(const ChartKind& kind, const Rows& rows, const OverTime& what) {
     return chart;
 }
 
-std::optional<double> relative_rmse(const ConvergenceRow& row) {
+std::optional<double> relative_rmse(const results::ConvergenceRow& row) {
     return percent_of_mean(row, *row.rmse);
 }
 
@@ -167,7 +167,8 @@ std::optional<double> relative_rmse(const ConvergenceRow& row) {
 
 /// Bias as its root, in percent of the mean radiance; nothing when it is not told apart from 0 (two standard
 /// errors).
-std::optional<Point> bias_point(double x, const Number& squared, const Number& stderr_, double mean) {
+std::optional<Point> bias_point(double x, const results::Number& squared, const results::Number& stderr_,
+                                double mean) {
     if (!squared || mean <= 0 || *squared <= 2 * stderr_.value_or(0) || *squared <= 0) return {};
     const auto root = [&](double v) { return 100 * std::sqrt(std::max(v, 0.0)) / mean; };
     Point point{x, root(*squared)};
@@ -180,35 +181,35 @@ std::optional<Point> bias_point(double x, const Number& squared, const Number& s
 
 struct Bias {
     std::string label;
-    std::optional<Point> (*point)(const ConvergenceRow&, double x);
+    std::optional<Point> (*point)(const results::ConvergenceRow&, double x);
     /// As theory expects the measure of this row, but for a factor; nothing: it expects no power law.
-    std::optional<double> (*expected)(const ConvergenceRow&);
+    std::optional<double> (*expected)(const results::ConvergenceRow&);
 };
 
-std::optional<double> area_a_photon(const ConvergenceRow& row) {
+std::optional<double> area_a_photon(const results::ConvergenceRow& row) {
     return static_cast<double>(*row.k) / static_cast<double>(*row.photons);
 }
-std::optional<double> root_of_radius(const ConvergenceRow& row) {
+std::optional<double> root_of_radius(const results::ConvergenceRow& row) {
     return std::pow(*area_a_photon(row), 0.25);
 }
-std::optional<double> root_of_k(const ConvergenceRow& row) {
+std::optional<double> root_of_k(const results::ConvergenceRow& row) {
     return 1 / std::sqrt(static_cast<double>(*row.k));
 }
 
 const Bias measures[] = {
     {"bias, interior [%]",
-     [](const ConvergenceRow& row, double x) {
+     [](const results::ConvergenceRow& row, double x) {
          return bias_point(x, row.interior_bias_squared, row.interior_bias_squared_stderr,
                            row.interior_mean_radiance.value_or(0));
      },
      area_a_photon},
     {"bias, all pixels [%]",
-     [](const ConvergenceRow& row, double x) {
+     [](const results::ConvergenceRow& row, double x) {
          return bias_point(x, row.bias_squared, row.bias_squared_stderr, row.mean_radiance.value_or(0));
      },
      root_of_radius},
     {"std. deviation, interior [%]",
-     [](const ConvergenceRow& row, double x) -> std::optional<Point> {
+     [](const results::ConvergenceRow& row, double x) -> std::optional<Point> {
          const double mean = row.interior_mean_radiance.value_or(0);
          if (row.interior_variance.value_or(0) <= 0 || mean <= 0) return {};
          return Point{x, 100 * std::sqrt(*row.interior_variance) / mean};
@@ -220,13 +221,13 @@ enum class Varied { photons, k };
 
 Chart bias_chart(const ChartKind& kind, const Rows& rows, Varied varied, std::string across) {
     std::vector<Ladder> all = ladders(rows.convergence);
-    const auto place = [&](const ConvergenceRow& row) {
+    const auto place = [&](const results::ConvergenceRow& row) {
         return static_cast<double>(varied == Varied::photons ? *row.photons : *row.k);
     };
     std::erase_if(all, [&](Ladder& ladder) {
         if (!is_direct(ladder)) return true;
         std::set<std::uint64_t> photons, k;
-        for (const ConvergenceRow* row : ladder.rows) {
+        for (const results::ConvergenceRow* row : ladder.rows) {
             if (row->photons.value_or(0) == 0 || row->k.value_or(0) == 0) return true;
             photons.insert(*row->photons);
             k.insert(*row->k);
@@ -249,7 +250,7 @@ Chart bias_chart(const ChartKind& kind, const Rows& rows, Varied varied, std::st
         for (std::size_t l = 0; l < all.size(); ++l) {
             Line line = look_of(all[l], l), dashed = line;
             std::optional<double> scale;
-            for (const ConvergenceRow* row : all[l].rows) {
+            for (const results::ConvergenceRow* row : all[l].rows) {
                 const double x = place(*row);
                 places.push_back(x);
                 const auto point = measure.point(*row, x);
@@ -286,7 +287,7 @@ Chart bias_chart(const ChartKind& kind, const Rows& rows, Varied varied, std::st
         figure.plates.push_back(std::move(plate));
     }
     if (figure.plates.empty()) return skip("no bias is told apart from 0, and there is no variance");
-    figure.horizontal = log_scale(places, [](double v) { return decimal_count(v); });
+    figure.horizontal = log_scale(places, [](double v) { return results::decimal_count(v); });
     Chart chart;
     chart.title = kind.title;
     chart.caption = caption_of(all);
@@ -299,9 +300,9 @@ std::string percent(double share) {
     return share >= 99.95 ? fmt::format("{:.0f}", share) : fmt::format("{:.3g}", share);
 }
 
-std::string setting_text(const ConvergenceRow& row) {
+std::string setting_text(const results::ConvergenceRow& row) {
     std::string out = row.mode == "direct" ? "direct" : fmt::format("N {}", row.gather_rays.value_or(0));
-    out += fmt::format(", n {}, k {}", decimal_count(static_cast<double>(row.photons.value_or(0))),
+    out += fmt::format(", n {}, k {}", results::decimal_count(static_cast<double>(row.photons.value_or(0))),
                        row.k.value_or(0));
     if (row.radius) out += fmt::format(", r {:.3g}", *row.radius);
     if (row.samples.value_or(1) > 1) out += fmt::format(", s {}", *row.samples);
@@ -310,14 +311,14 @@ std::string setting_text(const ConvergenceRow& row) {
 
 }  // namespace
 
-std::vector<Ladder> ladders(std::span<const ConvergenceRow> rows) {
+std::vector<Ladder> ladders(std::span<const results::ConvergenceRow> rows) {
     std::vector<Ladder> out;
     bool several = false;
-    for (const ConvergenceRow& row : rows) {
+    for (const results::ConvergenceRow& row : rows) {
         if (!is_complete(row)) continue;
         several |= picture_of(row) != picture_of(*(out.empty() ? &row : out.front().rows.front()));
         const auto same = std::find_if(out.begin(), out.end(), [&](const Ladder& ladder) {
-            const ConvergenceRow& first = *ladder.rows.front();
+            const results::ConvergenceRow& first = *ladder.rows.front();
             return first.ladder == row.ladder && first.mode == row.mode &&
                    picture_of(first) == picture_of(row);
         });
@@ -327,7 +328,7 @@ std::vector<Ladder> ladders(std::span<const ConvergenceRow> rows) {
             out.push_back({row.ladder, {&row}});
     }
     for (Ladder& ladder : out) {
-        const ConvergenceRow& row = *ladder.rows.front();
+        const results::ConvergenceRow& row = *ladder.rows.front();
         if (several)
             ladder.label +=
                 fmt::format(", {} {}×{}", row.scene, row.width.value_or(0), row.height.value_or(0));
@@ -355,8 +356,8 @@ std::optional<double> fitted_slope(std::span<const double> x, std::span<const do
 }
 
 std::optional<double> seconds_to(const Ladder& ladder, double error) {
-    const ConvergenceRow* before = nullptr;
-    for (const ConvergenceRow* row : ladder.rows) {
+    const results::ConvergenceRow* before = nullptr;
+    for (const results::ConvergenceRow* row : ladder.rows) {
         if (*row->rmse > error) {
             before = row;
             continue;
@@ -369,15 +370,15 @@ std::optional<double> seconds_to(const Ladder& ladder, double error) {
     return {};
 }
 
-std::string convergence_table(std::span<const ConvergenceRow> rows) {
+std::string convergence_table(std::span<const results::ConvergenceRow> rows) {
     const std::vector<Ladder> all = ladders(rows);
     if (all.empty()) return "";
     std::string out =
         fmt::format("{:<15} {:<28} {:>8} {:>8} {:>7} {:>6} {:>6} {:>6} {:>6}\n", "ladder", "setting",
                     "render s", "total s", "RMSE %", "bias %", "dev. %", "MAPE %", "FLIP");
     for (const Ladder& ladder : all)
-        for (const ConvergenceRow* row : ladder.rows) {
-            const auto root = [&](const Number& square) {
+        for (const results::ConvergenceRow* row : ladder.rows) {
+            const auto root = [&](const results::Number& square) {
                 return square ? percent(percent_of_mean(*row, std::sqrt(std::max(*square, 0.0))))
                               : std::string();
             };
@@ -396,7 +397,7 @@ std::string convergence_table(std::span<const ConvergenceRow> rows) {
     return out;
 }
 
-std::string time_table(std::span<const ConvergenceRow> rows) {
+std::string time_table(std::span<const results::ConvergenceRow> rows) {
     const std::vector<Ladder> all = ladders(rows);
     std::vector<double> levels;
     for (const double share : {0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005})
@@ -411,7 +412,7 @@ std::string time_table(std::span<const ConvergenceRow> rows) {
     out += '\n';
     for (const Ladder& ladder : all) {
         std::vector<double> x, y;
-        for (const ConvergenceRow* row : ladder.rows)
+        for (const results::ConvergenceRow* row : ladder.rows)
             if (!row->below_reference.value_or(false) && *row->rmse > 0) {
                 x.push_back(*row->total_seconds);
                 y.push_back(*row->rmse);
@@ -442,7 +443,7 @@ Chart error_by_render_time(const ChartKind& kind, const Rows& rows, const ChartO
 }
 
 Chart efficiency(const ChartKind& kind, const Rows& rows, const ChartOptions&) {
-    const Value relative = [](const ConvergenceRow& row) -> std::optional<double> {
+    const Value relative = [](const results::ConvergenceRow& row) -> std::optional<double> {
         if (!row.efficiency || row.mean_radiance.value_or(0) <= 0) return {};
         return *row.efficiency * *row.mean_radiance * *row.mean_radiance;
     };
@@ -459,4 +460,4 @@ Chart bias_by_k(const ChartKind& kind, const Rows& rows, const ChartOptions&) {
     return bias_chart(kind, rows, Varied::k, "photons of a gather (k)");
 }
 
-}  // namespace regather::results
+}  // namespace regather::charts

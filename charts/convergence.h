@@ -7,17 +7,17 @@
 
 #include "charts/chart.h"
 
-namespace regather::results {
+namespace regather::charts {
 
 /// The settings of one ladder of one picture against one reference, by rising total seconds. Rows must
 /// outlive it.
 struct Ladder {
     std::string label;  ///< "photons"; with scene and size where rows of several are given.
-    std::vector<const ConvergenceRow*> rows;
+    std::vector<const results::ConvergenceRow*> rows;
 };
 
 /// In the order of the ladders' first appearance. Rows without total_seconds above 0 or rmse are left out.
-std::vector<Ladder> ladders(std::span<const ConvergenceRow> rows);
+std::vector<Ladder> ladders(std::span<const results::ConvergenceRow> rows);
 
 /// Exponent of the power law y = c x^p through points above 0, by least squares of the logarithms; nothing
 /// for fewer than three points or a single x.
@@ -29,9 +29,9 @@ std::optional<double> fitted_slope(std::span<const double> x, std::span<const do
 std::optional<double> seconds_to(const Ladder& ladder, double error);
 
 /// For a terminal, at most 100 characters wide: a line a setting; empty without rows.
-std::string convergence_table(std::span<const ConvergenceRow> rows);
+std::string convergence_table(std::span<const results::ConvergenceRow> rows);
 /// Time to 50, 20, ... 1 % of the mean radiance, those that some ladder crosses.
-std::string time_table(std::span<const ConvergenceRow> rows);
+std::string time_table(std::span<const results::ConvergenceRow> rows);
 
 Chart error_by_time(const ChartKind& kind, const Rows& rows, const ChartOptions& options);
 Chart error_by_render_time(const ChartKind& kind, const Rows& rows, const ChartOptions& options);
@@ -39,4 +39,4 @@ Chart efficiency(const ChartKind& kind, const Rows& rows, const ChartOptions& op
 Chart bias_by_photons(const ChartKind& kind, const Rows& rows, const ChartOptions& options);
 Chart bias_by_k(const ChartKind& kind, const Rows& rows, const ChartOptions& options);
 
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -8,12 +8,12 @@
 #include "charts/figure.h"
 #include "charts/subject.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
 
 constexpr double margin = 88;  // for "100 MB"
 
-double number(const Count& count) {
+double number(const results::Count& count) {
     return static_cast<double>(*count);
 }
 
@@ -28,19 +28,19 @@ Scale depth_scale(double deepest) {
 }  // namespace
 
 Chart traffic_by_depth(const ChartKind& kind, const Rows& rows, const ChartOptions& options) {
-    std::vector<const DetailRow*> levels;
-    for (const DetailRow& row : rows.details)
+    std::vector<const results::DetailRow*> levels;
+    for (const results::DetailRow& row : rows.details)
         if (row.tree_depth && row.traffic_bytes) levels.push_back(&row);
     if (levels.empty()) return skip(fmt::format("needs {}, with traffic_bytes", kind.needs));
     std::stable_sort(levels.begin(), levels.end(),
                      [](auto a, auto b) { return *a->tree_depth < *b->tree_depth; });
-    const auto shown = subjects<DetailRow>(levels, options);
+    const auto shown = subjects<results::DetailRow>(levels, options);
     if (!shown.skipped.empty()) return skip(shown.skipped);
 
     std::vector<double> traffics, overfetches;
     double deepest = 0;
     for (const auto& subject : shown.all)
-        for (const DetailRow* row : subject.rows) {
+        for (const results::DetailRow* row : subject.rows) {
             deepest = std::max(deepest, number(row->tree_depth));
             if (*row->traffic_bytes == 0) continue;
             traffics.push_back(number(row->traffic_bytes));
@@ -57,7 +57,7 @@ Chart traffic_by_depth(const ChartKind& kind, const Rows& rows, const ChartOptio
     overfetch.height = 130;
     for (const auto& subject : shown.all) {
         Line above = line_of(subject.curve), below = above;
-        for (const DetailRow* row : subject.rows) {
+        for (const results::DetailRow* row : subject.rows) {
             if (*row->traffic_bytes == 0) continue;
             above.points.push_back({number(row->tree_depth), number(row->traffic_bytes)});
             if (row->used_bytes.value_or(0) > 0)
@@ -75,10 +75,10 @@ Chart traffic_by_depth(const ChartKind& kind, const Rows& rows, const ChartOptio
     }
     Chart chart;
     chart.title = kind.title;
-    std::string text = geometry_text(shown.cache);
+    std::string text = results::geometry_text(shown.cache);
     chart.caption = caption(curves_of(shown), text.insert(text.find(','), " cache"));
     compose(chart, figure);
     return chart;
 }
 
-}  // namespace regather::results
+}  // namespace regather::charts

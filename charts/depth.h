@@ -3,8 +3,8 @@
 #pragma once
 #include "charts/chart.h"
 
-namespace regather::results {
+namespace regather::charts {
 
 Chart traffic_by_depth(const ChartKind& kind, const Rows& rows, const ChartOptions& options);
 
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "charts/benefit.h"
+#include "results/benefit.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
 
 /// At `budget`, or the largest number where the ordering needs more.
@@ -18,17 +18,17 @@ std::uint64_t least_net(const Envelope& envelope, std::uint64_t budget) {
 
 }  // namespace
 
-std::optional<std::uint64_t> budget_bytes(const Row& row) {
+std::optional<std::uint64_t> budget_bytes(const results::Row& row) {
     if (!row.cache_bytes) return {};
     const std::uint64_t buffered = row.buffered_bytes.value_or(0);
     const bool fits = row.onchip_bytes ? buffered <= *row.onchip_bytes : row.reorder_bytes.value_or(0) == 0;
     return *row.cache_bytes + (fits ? buffered : 0);
 }
 
-std::vector<Envelope> envelopes(std::span<const Row> rows) {
+std::vector<Envelope> envelopes(std::span<const results::Row> rows) {
     std::vector<Envelope> out;
-    for (const Row& row : rows) {
-        const auto budget = budget_bytes(row), net = net_traffic(row);
+    for (const results::Row& row : rows) {
+        const auto budget = budget_bytes(row), net = results::net_traffic(row);
         if (!budget || !net) continue;
         auto own = std::find_if(out.begin(), out.end(),
                                 [&](const Envelope& e) { return e.ordering == row.ordering; });
@@ -64,4 +64,4 @@ std::vector<Reign> reigns(std::span<const Envelope> envelopes) {
     return out;
 }
 
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -10,16 +10,16 @@
 
 #include "results/row.h"
 
-namespace regather::results {
+namespace regather::charts {
 
 /// Cache, and the buffers when they fit into onchip_bytes; without onchip_bytes, when nothing of them goes
 /// off the chip. Nothing without a cache.
-std::optional<std::uint64_t> budget_bytes(const Row& row);
+std::optional<std::uint64_t> budget_bytes(const results::Row& row);
 
 struct Step {
     std::uint64_t budget_bytes = 0;
-    std::uint64_t net_bytes = 0;  ///< From this budget on, until the next step.
-    const Row* row = nullptr;     ///< That reaches it.
+    std::uint64_t net_bytes = 0;        ///< From this budget on, until the next step.
+    const results::Row* row = nullptr;  ///< That reaches it.
 };
 
 /// Of one ordering over all its tiles, bins and parameters: budgets rise, net traffic falls, both strictly.
@@ -30,7 +30,7 @@ struct Envelope {
 
 /// In the order of the orderings' first appearance. Rows without a budget or net traffic are left out. Rows
 /// must outlive the envelopes.
-std::vector<Envelope> envelopes(std::span<const Row> rows);
+std::vector<Envelope> envelopes(std::span<const results::Row> rows);
 
 /// The reign of one ordering, until the next one's begins.
 struct Reign {
@@ -42,4 +42,4 @@ struct Reign {
 /// Who has the least net traffic at each budget; of equals, the first envelope.
 std::vector<Reign> reigns(std::span<const Envelope> envelopes);
 
-}  // namespace regather::results
+}  // namespace regather::charts

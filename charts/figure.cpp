@@ -9,7 +9,7 @@
 #include "charts/gnuplot.h"
 #include "charts/plot.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
 
 // All in SVG pixels.
@@ -343,4 +343,4 @@ std::string byte_number(double bytes) {
     return fmt::format("{:.4g} {}", bytes, units[step]);
 }
 
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -12,7 +12,7 @@
 #include "charts/chart.h"
 #include "charts/series.h"
 
-namespace regather::results {
+namespace regather::charts {
 
 struct Point {
     double x = 0, y = 0;
@@ -88,4 +88,4 @@ Scale linear_scale(double high, std::string (*label)(double));
 std::string plain_number(double value);  ///< "0.002", "36"
 std::string byte_number(double bytes);   ///< "100 MB"
 
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -9,21 +9,21 @@
 #include "charts/figure.h"
 #include "charts/series.h"
 
-namespace regather::results {
+namespace regather::charts {
 
 Chart traffic_by_frame(const ChartKind& kind, const Rows& rows, const ChartOptions& options) {
-    const auto common = commonest_geometry(rows.measurements);
+    const auto common = results::commonest_geometry(rows.measurements);
     if (!common) return skip("no row has cache_bytes, line_bytes and ways");
-    const Geometry cache = options.cache.value_or(*common);
+    const results::Geometry cache = options.cache.value_or(*common);
     std::vector<Curve> all =
         curves(rows.measurements, Axis::cache, {cache, options.tile, options.bins, true});
 
     std::set<std::uint64_t> frames;
     double most = 0;
     for (Curve& curve : all) {
-        std::vector<const Row*> own;
+        std::vector<const results::Row*> own;
         for (const auto& place : curve.frames)
-            for (const Row* row : place)
+            for (const results::Row* row : place)
                 if (row->frame && row->cache_bytes == cache.cache_bytes &&
                     row->traffic_bytes.value_or(0) > 0) {
                     own.push_back(row);
@@ -36,14 +36,14 @@ Chart traffic_by_frame(const ChartKind& kind, const Rows& rows, const ChartOptio
     std::erase_if(all, [](const Curve& curve) { return curve.rows.empty(); });
     if (frames.size() < 2) return skip(fmt::format("needs {}; found {}", kind.needs, frames.size()));
 
-    const ByteUnit unit = byte_unit(most);
+    const results::ByteUnit unit = results::byte_unit(most);
     Plate plate;
     plate.label = fmt::format("traffic [{}]", unit.name);
     plate.height = 250;
     std::vector<double> heights;
     for (const Curve& curve : all) {
         Line line = line_of(curve);
-        for (const Row* row : curve.rows) {
+        for (const results::Row* row : curve.rows) {
             heights.push_back(static_cast<double>(*row->traffic_bytes) / unit.bytes);
             line.points.push_back({static_cast<double>(*row->frame), heights.back()});
         }
@@ -59,10 +59,10 @@ Chart traffic_by_frame(const ChartKind& kind, const Rows& rows, const ChartOptio
             across.ticks.emplace_back(static_cast<double>(frame), fmt::to_string(frame));
     Chart chart;
     chart.title = kind.title;
-    std::string text = geometry_text(cache);
+    std::string text = results::geometry_text(cache);
     chart.caption = caption(all, text.insert(text.find(','), " cache"));
     compose(chart, {"frame of the camera path", across, {std::move(plate)}});
     return chart;
 }
 
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -14,7 +14,7 @@
 
 extern char** environ;
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
 
 struct Close {
@@ -97,4 +97,4 @@ std::string gnuplot_string(std::string_view text) {
     return out + '\'';
 }
 
-}  // namespace regather::results
+}  // namespace regather::charts

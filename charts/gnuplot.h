@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace regather::results {
+namespace regather::charts {
 
 /// Runs `gnuplot` from PATH, without a shell and without the user's settings; the script must leave its
 /// output on stdout. Throws std::runtime_error with one line when gnuplot is missing or the script fails.
@@ -13,4 +13,4 @@ std::string run_gnuplot(std::string_view script);
 /// apostrophes typographic ones.
 std::string gnuplot_string(std::string_view text);
 
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <iterator>
 
-#include "charts/geometry.h"
 #include "charts/gnuplot.h"
+#include "results/geometry.h"
 #include "trace/file.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
 
 constexpr int panel_pixels = 300, bar_pixels = 110, head_pixels = 76;
@@ -50,8 +50,9 @@ std::string heat_map_script(std::span<const HeatMap> maps, std::uint32_t width, 
         gnuplot_string(caption), 1 - 40.0 / picture_height, low, high, width - 1, height - 1, aspect);
     std::string ticks;
     for (double value = low; value <= high * 1.001; value *= 10)
-        ticks += fmt::format("{}{} {:.6g}", ticks.empty() ? "" : ", ",
-                             gnuplot_string(decimal_bytes(static_cast<std::uint64_t>(value))), value);
+        ticks +=
+            fmt::format("{}{} {:.6g}", ticks.empty() ? "" : ", ",
+                        gnuplot_string(results::decimal_bytes(static_cast<std::uint64_t>(value))), value);
     for (std::size_t i = 0; i < maps.size(); ++i) {
         const std::size_t column = i % columns, row = i / columns;
         const double left = (static_cast<double>(column) * (panel_pixels + 10) + 8) / picture_width;
@@ -66,7 +67,7 @@ std::string heat_map_script(std::span<const HeatMap> maps, std::uint32_t width, 
             "bmargin at "
             "screen {:.5f}\nset label 3 {} at graph 0, graph 1 offset 0, 0.7 font 'DejaVu Sans,10'\n",
             left, right, top, bottom,
-            gnuplot_string(fmt::format("{}: {}", maps[i].title, decimal_bytes(sum))));
+            gnuplot_string(fmt::format("{}: {}", maps[i].title, results::decimal_bytes(sum))));
         if (i + 1 == maps.size())
             script += fmt::format(
                 "set colorbox user origin screen {:.5f}, screen 0.06 size screen {:.5f}, screen {:.5f}\nset "
@@ -95,4 +96,4 @@ void write_heat_map(const std::filesystem::path& png, std::span<const HeatMap> m
     trace::write_file(png, run_gnuplot(heat_map_script(maps, width, height, caption)));
 }
 
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace regather::results {
+namespace regather::charts {
 
 struct HeatMap {
     std::string title;
@@ -23,4 +23,4 @@ std::string heat_map_script(std::span<const HeatMap> maps, std::uint32_t width, 
 void write_heat_map(const std::filesystem::path& png, std::span<const HeatMap> maps, std::uint32_t width,
                     std::uint32_t height, const std::string& caption);
 
-}  // namespace regather::results
+}  // namespace regather::charts

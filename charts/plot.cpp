@@ -9,7 +9,7 @@
 
 #include "charts/gnuplot.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
 
 // All in SVG pixels.
@@ -25,8 +25,8 @@ struct Value {
     friend bool operator==(const Value&, const Value&) = default;
 };
 
-std::vector<const Row*> frames_at(const Curve& curve, std::size_t r) {
-    return r < curve.frames.size() ? curve.frames[r] : std::vector<const Row*>{curve.rows[r]};
+std::vector<const results::Row*> frames_at(const Curve& curve, std::size_t r) {
+    return r < curve.frames.size() ? curve.frames[r] : std::vector<const results::Row*>{curve.rows[r]};
 }
 
 /// A curve as one panel shows it: places above 0 only, as a log axis has no 0.
@@ -34,7 +34,7 @@ std::vector<Value> values(const Curve& curve, const Panel& panel, Axis axis) {
     std::vector<Value> out;
     for (std::size_t r = 0; r < curve.rows.size(); ++r) {
         std::vector<double> found;
-        for (const Row* row : frames_at(curve, r))
+        for (const results::Row* row : frames_at(curve, r))
             if (const auto y = panel.measure(*row); y && *y > 0) found.push_back(*y);
         if (found.empty()) continue;
         std::sort(found.begin(), found.end());
@@ -47,8 +47,9 @@ std::vector<Value> values(const Curve& curve, const Panel& panel, Axis axis) {
 }
 
 bool all_zero(const Curve& curve, const Panel& panel) {
-    return std::all_of(curve.rows.begin(), curve.rows.end(),
-                       [&](const Row* row) { return panel.measure(*row) == std::optional<double>(0); });
+    return std::all_of(curve.rows.begin(), curve.rows.end(), [&](const results::Row* row) {
+        return panel.measure(*row) == std::optional<double>(0);
+    });
 }
 
 std::string ticks(std::span<const double> at, std::string (*label)(double)) {
@@ -99,7 +100,7 @@ struct Frame {
 Frame frame_of(std::span<const Curve> curves, Axis axis) {
     Frame frame{};
     for (const Curve& curve : curves)
-        for (const Row* row : curve.rows)
+        for (const results::Row* row : curve.rows)
             if (!curve.flat) frame.x_ticks.push_back(axis_value(*row, axis));
     std::sort(frame.x_ticks.begin(), frame.x_ticks.end());
     frame.x_ticks.erase(std::unique(frame.x_ticks.begin(), frame.x_ticks.end()), frame.x_ticks.end());
@@ -322,4 +323,4 @@ bool compose_panels(Chart& chart, std::span<const Curve> curves, const Horizonta
     return Composer(chart, curves, axis, panels).compose();
 }
 
-}  // namespace regather::results
+}  // namespace regather::charts

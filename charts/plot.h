@@ -10,13 +10,13 @@
 #include "charts/chart.h"
 #include "charts/series.h"
 
-namespace regather::results {
+namespace regather::charts {
 
 /// One measure of the curves, drawn against the common axis: of rows of several frames the median, with a bar
 /// from the least to the most.
 struct Panel {
     std::string label;  ///< Of the vertical axis, with its unit.
-    std::function<std::optional<double>(const Row&)> measure;
+    std::function<std::optional<double>(const results::Row&)> measure;
     std::string (*tick_label)(double);
     std::optional<double> floor;  ///< A thin level line ...
     std::string floor_label;      ///< ... and what it is.
@@ -37,4 +37,4 @@ bool compose_panels(Chart& chart, std::span<const Curve> curves, const Horizonta
 /// Round values from at most `low` to at least `high`: 1, 2, 5 a decade, or whole decades when they are many.
 std::vector<double> log_ticks(double low, double high);
 
-}  // namespace regather::results
+}  // namespace regather::charts

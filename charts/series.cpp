@@ -7,9 +7,10 @@
 #include <cmath>
 #include <iterator>
 
+#include "results/parameters.h"
 #include "trace/error.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
 
 constexpr bool tiles = true;
@@ -33,36 +34,37 @@ constexpr std::string_view spare_colours[] = {"#332288", "#44aa99", "#aa4499",
 constexpr std::size_t trait_count = 7;
 using Traits = std::array<std::string, trait_count>;
 
-Traits traits_of(const Row& row, bool merge_frames) {
+Traits traits_of(const results::Row& row, bool merge_frames) {
     return {row.scene,
             row.frame && !merge_frames ? fmt::format("frame {}", *row.frame) : "",
             row.structure,
             row.layout,
             row.policy,
             row.set_sampling.value_or(1) > 1 ? fmt::format("1/{} of the sets", *row.set_sampling) : "",
-            other_parameters(row)};
+            results::other_parameters(row)};
 }
 
 struct Group {
     std::string ordering;
     bool tiled, binned;
     Traits traits;
-    std::vector<const Row*> rows;
-    std::vector<std::vector<const Row*>> frames = {};
+    std::vector<const results::Row*> rows;
+    std::vector<std::vector<const results::Row*>> frames = {};
 };
 
-bool fits(const Row& row, Axis axis, const Geometry& cache) {
-    const auto geometry = geometry_of(row);
+bool fits(const results::Row& row, Axis axis, const results::Geometry& cache) {
+    const auto geometry = results::geometry_of(row);
     if (!geometry || !row.traffic_bytes || (axis == Axis::bins && !row.bins)) return false;
     if (row.tile == std::uint64_t{0} || row.bins == std::uint64_t{0}) return false;  // no place on a log axis
-    Geometry wanted = cache;
+    results::Geometry wanted = cache;
     if (axis == Axis::cache) wanted.cache_bytes = geometry->cache_bytes;
     return *geometry == wanted;
 }
 
-std::vector<Group> groups_of(std::span<const Row> rows, Axis axis, const Geometry& cache, bool merge_frames) {
+std::vector<Group> groups_of(std::span<const results::Row> rows, Axis axis, const results::Geometry& cache,
+                             bool merge_frames) {
     std::vector<Group> groups;
-    for (const Row& row : rows) {
+    for (const results::Row& row : rows) {
         if (!fits(row, axis, cache)) continue;
         const Traits traits = traits_of(row, merge_frames);
         const bool tiled = row.tile.has_value(), binned = row.bins.has_value();
@@ -77,28 +79,28 @@ std::vector<Group> groups_of(std::span<const Row> rows, Axis axis, const Geometr
 }
 
 /// Keeps the rows whose `field` is the nearest to `wanted` that there is.
-void hold(std::vector<const Row*>& rows, Count Row::*field, std::uint64_t wanted) {
+void hold(std::vector<const results::Row*>& rows, results::Count results::Row::*field, std::uint64_t wanted) {
     const auto distance = [&](std::uint64_t value) {
         return std::abs(std::log2(static_cast<double>(value)) - std::log2(static_cast<double>(wanted)));
     };
     std::uint64_t best = *(rows.front()->*field);
-    for (const Row* row : rows) {
+    for (const results::Row* row : rows) {
         const std::uint64_t value = *(row->*field);
         if (distance(value) < distance(best) || (distance(value) == distance(best) && value < best))
             best = value;
     }
-    std::erase_if(rows, [&](const Row* row) { return *(row->*field) != best; });
+    std::erase_if(rows, [&](const results::Row* row) { return *(row->*field) != best; });
 }
 
 /// Sorted along the axis, one row a place; the rows of all frames beside it.
 void settle(Group& group, Axis axis, bool flat) {
     auto& rows = group.rows;
-    const auto place = [&](const Row* row) { return flat ? 0 : axis_value(*row, axis); };
+    const auto place = [&](const results::Row* row) { return flat ? 0 : axis_value(*row, axis); };
     std::stable_sort(rows.begin(), rows.end(), [&](auto a, auto b) {
         return place(a) != place(b) ? place(a) < place(b) : a->frame < b->frame;
     });
     for (std::size_t i = 1; i < rows.size();) {
-        const Row &a = *rows[i - 1], &b = *rows[i];
+        const results::Row &a = *rows[i - 1], &b = *rows[i];
         if (place(&a) != place(&b) || a.frame != b.frame) {
             ++i;
             continue;
@@ -112,8 +114,8 @@ void settle(Group& group, Axis axis, bool flat) {
                 b.parameters.empty() ? b.ordering : b.parameters, *a.traffic_bytes, *b.traffic_bytes));
         rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(i));
     }
-    std::vector<const Row*> places;
-    for (const Row* row : rows) {
+    std::vector<const results::Row*> places;
+    for (const results::Row* row : rows) {
         if (places.empty() || place(places.back()) != place(row)) {
             places.push_back(row);
             group.frames.emplace_back();
@@ -161,27 +163,14 @@ std::span<const Style> styles() {
     return known;
 }
 
-std::string other_parameters(const Row& row) {
-    std::string out;
-    std::size_t at = 0;
-    while (at <= row.parameters.size()) {
-        const std::size_t end = std::min(row.parameters.find_first_of(":,+ ", at), row.parameters.size());
-        const std::string word = row.parameters.substr(at, end - at);
-        at = end + 1;
-        if (word.find('=') == word.npos || word.starts_with("tile=") || word.starts_with("bins=")) continue;
-        // A pass for each bin is what is meant when nothing is said.
-        if (row.bins && word == fmt::format("passes={}", *row.bins * *row.bins)) continue;
-        out += (out.empty() ? "" : ", ") + word;
-    }
-    return out;
-}
-
-double axis_value(const Row& row, Axis axis) {
-    const Count& value = axis == Axis::tile ? row.tile : axis == Axis::bins ? row.bins : row.cache_bytes;
+double axis_value(const results::Row& row, Axis axis) {
+    const results::Count& value = axis == Axis::tile   ? row.tile
+                                  : axis == Axis::bins ? row.bins
+                                                       : row.cache_bytes;
     return static_cast<double>(*value);
 }
 
-std::vector<Curve> curves(std::span<const Row> rows, Axis axis, const Slice& slice) {
+std::vector<Curve> curves(std::span<const results::Row> rows, Axis axis, const Slice& slice) {
     std::vector<Group> groups = groups_of(rows, axis, slice.cache, slice.merge_frames);
     std::array<bool, trait_count> differs{};
     std::vector<std::string> strangers;
@@ -196,14 +185,14 @@ std::vector<Curve> curves(std::span<const Row> rows, Axis axis, const Slice& sli
     }
     std::vector<Curve> out;
     for (Group& group : groups) {
-        if (group.tiled && axis != Axis::tile) hold(group.rows, &Row::tile, slice.tile);
-        if (group.binned && axis != Axis::bins) hold(group.rows, &Row::bins, slice.bins);
+        if (group.tiled && axis != Axis::tile) hold(group.rows, &results::Row::tile, slice.tile);
+        if (group.binned && axis != Axis::bins) hold(group.rows, &results::Row::bins, slice.bins);
         Curve curve = look_of(group, out, strangers, axis == Axis::tile && !group.tiled);
         settle(group, axis, curve.flat);
         curve.rows = group.rows;
         if (slice.merge_frames) curve.frames = group.frames;
 
-        const Row& row = *curve.rows.front();
+        const results::Row& row = *curve.rows.front();
         const auto can_tile = std::any_of(std::begin(known), std::end(known), [&](const Style& s) {
             return s.ordering == group.ordering && s.can_tile;
         });
@@ -223,4 +212,4 @@ std::vector<Curve> curves(std::span<const Row> rows, Axis axis, const Slice& sli
     return out;
 }
 
-}  // namespace regather::results
+}  // namespace regather::charts

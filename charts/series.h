@@ -8,17 +8,17 @@
 #include <string_view>
 #include <vector>
 
-#include "charts/geometry.h"
+#include "results/geometry.h"
 #include "results/row.h"
 
-namespace regather::results {
+namespace regather::charts {
 
 enum class Axis { tile, bins, cache };
 
 /// Where the parameters that are not the axis are held. An ordering that was not measured at `tile` or `bins`
 /// is shown at its nearest value (by ratio; of two equally near the smaller one).
 struct Slice {
-    Geometry cache;  ///< Along the cache axis, only its line size and ways count.
+    results::Geometry cache;  ///< Along the cache axis, only its line size and ways count.
     std::uint64_t tile = 16, bins = 16;
     bool merge_frames = false;  ///< Rows that differ in their frame alone share a place: Curve::frames.
 };
@@ -36,22 +36,19 @@ struct Curve {
     std::string label;
     std::string colour;
     int marker = 0;
-    int variant = 0;               ///< Counts up among curves of one ordering; picks the dashes.
-    bool flat = false;             ///< Its rows have no place on the axis (naive has no tiles): a level line.
-    std::vector<const Row*> rows;  ///< Ascending along the axis; one row when flat.
-    std::vector<std::vector<const Row*>>
+    int variant = 0;    ///< Counts up among curves of one ordering; picks the dashes.
+    bool flat = false;  ///< Its rows have no place on the axis (naive has no tiles): a level line.
+    std::vector<const results::Row*> rows;  ///< Ascending along the axis; one row when flat.
+    std::vector<std::vector<const results::Row*>>
         frames;  ///< Where frames share a curve: for each of `rows` those of all frames there, by frame.
 };
 
-/// "hilbert:tile=16,bits=10" -> "bits=10": what the columns tile and bins do not imply already.
-std::string other_parameters(const Row& row);
-
-double axis_value(const Row& row, Axis axis);  ///< Of a row that has one.
+double axis_value(const results::Row& row, Axis axis);  ///< Of a row that has one.
 
 /// In the order of the rows' first appearance. Orderings that differ in a further column or parameter (frame,
 /// layout, "rows=alternating") are curves of their own, named by what differs. Along `bins`, orderings
 /// without bins are left out. Rows must outlive the curves. Throws trace::DataError when two rows contradict
 /// each other.
-std::vector<Curve> curves(std::span<const Row> rows, Axis axis, const Slice& slice);
+std::vector<Curve> curves(std::span<const results::Row> rows, Axis axis, const Slice& slice);
 
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -7,7 +7,7 @@
 
 #include "charts/gnuplot.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
 
 // An error of 0 has no place on a log axis: what is smaller is drawn here.
@@ -27,12 +27,12 @@ double drawn(const std::optional<double>& value, double otherwise) {
 
 }  // namespace
 
-std::string stability_table(std::span<const StabilityRow> rows) {
+std::string stability_table(std::span<const results::StabilityRow> rows) {
     if (rows.empty()) return "";
     std::string out = fmt::format("{:<10} {:<46} {:>10} {:>10} {:>8}  {}\n", "group", "case", "error",
                                   "allowed", "seconds", "of");
     std::size_t passed = 0;
-    for (const StabilityRow& row : rows) {
+    for (const results::StabilityRow& row : rows) {
         const bool good = row.passed.value_or(false);
         passed += good;
         out += fmt::format("{:<10} {:<46} {:>10} {:>10} {:>8.2f}  {}{}\n", cut(row.group, 10),
@@ -54,7 +54,7 @@ Chart stability(const ChartKind& kind, const Rows& rows, const ChartOptions&) {
 
     std::string labels, good, bad, allowed, seconds;
     for (std::size_t i = 0; i < count; ++i) {
-        const StabilityRow& row = rows.stability[i];
+        const results::StabilityRow& row = rows.stability[i];
         const std::size_t y = count - i;
         labels +=
             fmt::format("{}{} {}", i == 0 ? "" : ", ",
@@ -94,4 +94,4 @@ Chart stability(const ChartKind& kind, const Rows& rows, const ChartOptions&) {
     return chart;
 }
 
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -6,11 +6,11 @@
 
 #include "charts/chart.h"
 
-namespace regather::results {
+namespace regather::charts {
 
 /// A header and a line a row, cases that failed with "FAILED"; then how many passed.
-std::string stability_table(std::span<const StabilityRow> rows);
+std::string stability_table(std::span<const results::StabilityRow> rows);
 
 Chart stability(const ChartKind& kind, const Rows& rows, const ChartOptions& options);
 
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -10,12 +10,12 @@
 #include "charts/chart.h"
 #include "charts/series.h"
 
-namespace regather::results {
+namespace regather::charts {
 
 /// The columns that tell what was replayed. traffic_bytes is 0, as results stand elsewhere.
 template <class R>
-Row subject_of(const R& row) {
-    Row out;
+results::Row subject_of(const R& row) {
+    results::Row out;
     out.scene = row.scene;
     out.ordering = row.ordering;
     out.tile = row.tile;
@@ -32,8 +32,8 @@ Row subject_of(const R& row) {
     return out;
 }
 
-inline bool same_subject(const Row& a, const Row& b) {
-    const auto key = [](const Row& row) {
+inline bool same_subject(const results::Row& a, const results::Row& b) {
+    const auto key = [](const results::Row& row) {
         return std::tie(row.scene, row.ordering, row.tile, row.bins, row.parameters, row.layout, row.policy,
                         row.cache_bytes, row.line_bytes, row.ways);
     };
@@ -48,9 +48,9 @@ struct Subject {
 };
 template <class R>
 struct Subjects {
-    std::vector<Row> keys;  ///< Where the curves' rows lie.
+    std::vector<results::Row> keys;  ///< Where the curves' rows lie.
     std::vector<Subject<R>> all;
-    Geometry cache;
+    results::Geometry cache;
     std::string skipped;
 };
 
@@ -60,24 +60,24 @@ template <class R>
 Subjects<R> subjects(std::span<const R* const> rows, const ChartOptions& options) {
     Subjects<R> out;
     for (const R* row : rows) {
-        const Row key = subject_of(*row);
+        const results::Row key = subject_of(*row);
         if (std::none_of(out.keys.begin(), out.keys.end(),
-                         [&](const Row& k) { return same_subject(k, key); }))
+                         [&](const results::Row& k) { return same_subject(k, key); }))
             out.keys.push_back(key);
     }
-    const auto common = commonest_geometry(out.keys);
+    const auto common = results::commonest_geometry(out.keys);
     if (!common) {
         out.skipped = "no row has cache_bytes, line_bytes and ways";
         return out;
     }
     out.cache = options.cache.value_or(*common);
-    std::erase_if(out.keys, [&](const Row& key) { return geometry_of(key) != out.cache; });
+    std::erase_if(out.keys, [&](const results::Row& key) { return results::geometry_of(key) != out.cache; });
     for (const Curve& curve : curves(out.keys, Axis::cache, {out.cache, options.tile, options.bins})) {
         Subject<R>& subject = out.all.emplace_back(Subject<R>{curve, {}});
         for (const R* row : rows)
             if (same_subject(subject_of(*row), *curve.rows.front())) subject.rows.push_back(row);
     }
-    if (out.all.empty()) out.skipped = "no row has the cache " + geometry_text(out.cache);
+    if (out.all.empty()) out.skipped = "no row has the cache " + results::geometry_text(out.cache);
     return out;
 }
 
@@ -89,4 +89,4 @@ std::vector<Curve> curves_of(const Subjects<R>& subjects) {
     return out;
 }
 
-}  // namespace regather::results
+}  // namespace regather::charts

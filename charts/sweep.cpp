@@ -10,7 +10,7 @@
 #include "charts/plot.h"
 #include "charts/series.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
 
 std::string kib_number(double bytes) {
@@ -28,7 +28,7 @@ std::optional<double> compulsory(std::span<const Curve> curves) {
     std::set<std::uint64_t> seen;
     for (const Curve& curve : curves)
         for (const auto& frames : curve.frames)
-            for (const Row* row : frames)
+            for (const results::Row* row : frames)
                 if (row->compulsory_bytes) seen.insert(*row->compulsory_bytes);
     if (seen.size() != 1 || *seen.begin() == 0) return {};
     return static_cast<double>(*seen.begin());
@@ -38,11 +38,12 @@ Chart draw_traffic(const ChartKind& kind, std::span<const Curve> drawn, const Ho
                    const std::string& cache) {
     double most = 0;
     for (const Curve& curve : drawn)
-        for (const Row* row : curve.rows) most = std::max(most, static_cast<double>(*row->traffic_bytes));
-    const ByteUnit unit = byte_unit(most);
+        for (const results::Row* row : curve.rows)
+            most = std::max(most, static_cast<double>(*row->traffic_bytes));
+    const results::ByteUnit unit = results::byte_unit(most);
     Panel panel;
     panel.label = fmt::format("traffic from memory to cache [{}]", unit.name);
-    panel.measure = [unit](const Row& row) {
+    panel.measure = [unit](const results::Row& row) {
         return std::optional(static_cast<double>(*row.traffic_bytes) / unit.bytes);
     };
     panel.tick_label = plain_number;
@@ -60,14 +61,14 @@ Chart draw_traffic(const ChartKind& kind, std::span<const Curve> drawn, const Ho
 Chart draw_cost(const ChartKind& kind, std::span<const Curve> drawn, const HorizontalAxis& axis) {
     Panel panels[2];
     panels[0].label = "key operations per query";
-    panels[0].measure = [](const Row& row) -> std::optional<double> {
+    panels[0].measure = [](const results::Row& row) -> std::optional<double> {
         if (!row.key_ops || !row.queries || *row.queries == 0) return {};
         return static_cast<double>(*row.key_ops) / static_cast<double>(*row.queries);
     };
     panels[0].tick_label = plain_number;
     panels[0].nothing = "No computation";
     panels[1].label = "peak buffered bytes";
-    panels[1].measure = [](const Row& row) -> std::optional<double> {
+    panels[1].measure = [](const results::Row& row) -> std::optional<double> {
         if (!row.buffered_bytes) return {};
         return static_cast<double>(*row.buffered_bytes);
     };
@@ -84,13 +85,14 @@ Chart draw_cost(const ChartKind& kind, std::span<const Curve> drawn, const Horiz
 
 struct Sliced {
     std::vector<Curve> curves;
-    Geometry cache;
+    results::Geometry cache;
     std::string skipped;
 };
 
 /// The curves of a chart, or why there are none. A chart along an axis needs two places on it.
-Sliced slice(const ChartKind& kind, std::span<const Row> rows, Axis axis, const ChartOptions& options) {
-    const auto common = commonest_geometry(rows);
+Sliced slice(const ChartKind& kind, std::span<const results::Row> rows, Axis axis,
+             const ChartOptions& options) {
+    const auto common = results::commonest_geometry(rows);
     Sliced out;
     if (!common) {
         out.skipped = "no row has cache_bytes, line_bytes and ways";
@@ -100,13 +102,13 @@ Sliced slice(const ChartKind& kind, std::span<const Row> rows, Axis axis, const 
     out.curves = curves(rows, axis, {out.cache, options.tile, options.bins, true});
     std::set<double> places;
     for (const Curve& curve : out.curves)
-        for (const Row* row : curve.rows)
+        for (const results::Row* row : curve.rows)
             if (!curve.flat) places.insert(axis_value(*row, axis));
     if (out.curves.empty() && axis != Axis::bins)
-        out.skipped = fmt::format("no row has the cache {}", geometry_text(out.cache));
+        out.skipped = fmt::format("no row has the cache {}", results::geometry_text(out.cache));
     else if (places.size() < 2)
         out.skipped = fmt::format("needs {}; found {} with the cache {}", kind.needs, places.size(),
-                                  geometry_text(out.cache));
+                                  results::geometry_text(out.cache));
     return out;
 }
 
@@ -115,14 +117,14 @@ Sliced slice(const ChartKind& kind, std::span<const Row> rows, Axis axis, const 
 Chart traffic_by_tile(const ChartKind& kind, const Rows& rows, const ChartOptions& options) {
     const Sliced sliced = slice(kind, rows.measurements, Axis::tile, options);
     if (!sliced.skipped.empty()) return skip(sliced.skipped);
-    std::string text = geometry_text(sliced.cache);
+    std::string text = results::geometry_text(sliced.cache);
     return draw_traffic(kind, sliced.curves, tile_axis, text.insert(text.find(','), " cache"));
 }
 
 Chart traffic_by_cache(const ChartKind& kind, const Rows& rows, const ChartOptions& options) {
     const Sliced sliced = slice(kind, rows.measurements, Axis::cache, options);
     if (!sliced.skipped.empty()) return skip(sliced.skipped);
-    const std::string text = geometry_text(sliced.cache);
+    const std::string text = results::geometry_text(sliced.cache);
     return draw_traffic(kind, sliced.curves, cache_axis, text.substr(text.find(',') + 2));
 }
 
@@ -138,4 +140,4 @@ Chart cost_by_bins(const ChartKind& kind, const Rows& rows, const ChartOptions& 
     return draw_cost(kind, sliced.curves, bins_axis);
 }
 
-}  // namespace regather::results
+}  // namespace regather::charts

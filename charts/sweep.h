@@ -3,11 +3,11 @@
 #pragma once
 #include "charts/chart.h"
 
-namespace regather::results {
+namespace regather::charts {
 
 Chart traffic_by_tile(const ChartKind& kind, const Rows& rows, const ChartOptions& options);
 Chart traffic_by_cache(const ChartKind& kind, const Rows& rows, const ChartOptions& options);
 Chart cost_by_tile(const ChartKind& kind, const Rows& rows, const ChartOptions& options);
 Chart cost_by_bins(const ChartKind& kind, const Rows& rows, const ChartOptions& options);
 
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -8,26 +8,26 @@
 #include "charts/figure.h"
 #include "charts/subject.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
 
 constexpr std::size_t most_markers = 16;
 
-double number(const Count& count) {
+double number(const results::Count& count) {
     return static_cast<double>(*count);
 }
 
 }  // namespace
 
 Chart timeline(const ChartKind& kind, const Rows& rows, const ChartOptions& options) {
-    std::vector<const TimelineRow*> slices;
-    for (const TimelineRow& row : rows.timeline)
+    std::vector<const results::TimelineRow*> slices;
+    for (const results::TimelineRow& row : rows.timeline)
         if (row.first_query && row.queries.value_or(0) > 0 && row.misses) slices.push_back(&row);
     if (slices.empty())
         return skip(fmt::format("needs {}, with first_query, queries and misses", kind.needs));
     std::stable_sort(slices.begin(), slices.end(),
                      [](auto a, auto b) { return *a->first_query < *b->first_query; });
-    const auto shown = subjects<TimelineRow>(slices, options);
+    const auto shown = subjects<results::TimelineRow>(slices, options);
     if (!shown.skipped.empty()) return skip(shown.skipped);
 
     Plate plate;
@@ -36,12 +36,12 @@ Chart timeline(const ChartKind& kind, const Rows& rows, const ChartOptions& opti
     std::vector<double> heights;
     std::string silent;
     for (const auto& subject : shown.all) {
-        const TimelineRow& last = *subject.rows.back();
+        const results::TimelineRow& last = *subject.rows.back();
         const double total = number(last.first_query) + number(last.queries);
         Line line = line_of(subject.curve);
         line.every = 1 + (subject.rows.size() - 1) / most_markers;
         bool any = false;
-        for (const TimelineRow* row : subject.rows) {
+        for (const results::TimelineRow* row : subject.rows) {
             const double per_query = number(row->misses) / number(row->queries);
             const double middle = number(row->first_query) + number(row->queries) / 2;
             any |= per_query > 0;
@@ -60,7 +60,7 @@ Chart timeline(const ChartKind& kind, const Rows& rows, const ChartOptions& opti
 
     Chart chart;
     chart.title = kind.title;
-    std::string text = geometry_text(shown.cache);
+    std::string text = results::geometry_text(shown.cache);
     chart.caption = caption(curves_of(shown), text.insert(text.find(','), " cache"));
     Scale share{false, 0, 100, {}};
     for (double tick = 0; tick <= 100; tick += 20) share.ticks.emplace_back(tick, plain_number(tick));
@@ -68,4 +68,4 @@ Chart timeline(const ChartKind& kind, const Rows& rows, const ChartOptions& opti
     return chart;
 }
 
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -2,8 +2,8 @@
 #pragma once
 #include "charts/chart.h"
 
-namespace regather::results {
+namespace regather::charts {
 
 Chart timeline(const ChartKind& kind, const Rows& rows, const ChartOptions& options);
 
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -50,7 +50,7 @@ struct Tables {
                 return append(stability, text, file);
         }
     }
-    results::Rows rows() const { return {measurements, details, timeline, sampling, convergence, stability}; }
+    charts::Rows rows() const { return {measurements, details, timeline, sampling, convergence, stability}; }
 
 private:
     template <class R>
@@ -60,8 +60,8 @@ private:
     }
 };
 
-void refuse_to_overwrite(const Request& request, std::span<const results::ChartKind* const> kinds) {
-    for (const results::ChartKind* kind : kinds)
+void refuse_to_overwrite(const Request& request, std::span<const charts::ChartKind* const> kinds) {
+    for (const charts::ChartKind* kind : kinds)
         for (const char* ending : {".svg", ".png"})
             if (const auto file =
                     std::filesystem::path(request.folder) / fmt::format("{}{}", kind->name, ending);
@@ -70,26 +70,26 @@ void refuse_to_overwrite(const Request& request, std::span<const results::ChartK
 }
 
 void run(const Request& request) {
-    results::ChartOptions options;
+    charts::ChartOptions options;
     options.tile = request.tile;
     options.bins = request.bins;
     if (!request.cache.empty()) options.cache = results::parse_geometry(request.cache);
-    for (const std::string& kind : request.kinds) results::chart_kind(kind);
+    for (const std::string& kind : request.kinds) charts::chart_kind(kind);
 
     Tables tables;
     for (const std::string& file : request.csv) tables.add(file);
-    const results::Rows rows = tables.rows();
-    const auto kinds = results::wanted_kinds(rows, request.kinds);
+    const charts::Rows rows = tables.rows();
+    const auto kinds = charts::wanted_kinds(rows, request.kinds);
     if (kinds.empty())
         throw trace::DataError(fmt::format("{}: no rows, expected at least one", request.csv[0]));
     if (!request.force) refuse_to_overwrite(request, kinds);
     bool any = false;
     std::string skipped;
-    for (const auto& drawn : results::write_charts(request.folder, rows, request.kinds, options)) {
+    for (const auto& drawn : charts::write_charts(request.folder, rows, request.kinds, options)) {
         for (const auto& file : drawn.files) fmt::print("{}\n", file.string());
         any |= !drawn.files.empty();
         if (drawn.kind == "sampling-error" && !drawn.files.empty())
-            fmt::print("{}", results::accuracy_table(rows.sampling));
+            fmt::print("{}", charts::accuracy_table(rows.sampling));
         if (drawn.skipped.empty()) continue;
         const std::string line = fmt::format("{}: not drawn: {}", drawn.kind, drawn.skipped);
         fmt::print("{}\n", line);
@@ -101,7 +101,7 @@ void run(const Request& request) {
 
 std::string footer() {
     std::string out = "Kinds:\n";
-    for (const auto& kind : results::chart_kinds())
+    for (const auto& kind : charts::chart_kinds())
         out += fmt::format("  {:<22}{}; needs {}\n", kind.name, kind.title, kind.needs);
     return out +
            "\nExamples:\n"

@@ -167,12 +167,12 @@ void run(const Options& options) {
     fmt::print("reference: {} samples a pixel in {:.1f} s, own RMSE {:.3g} %; no error below it is told\n",
                reference.samples, reference.seconds,
                100 * convergence.reference_rmse() / (mean > 0 ? mean : 1));
-    fmt::print("{}\n{}", results::convergence_table(rows), results::time_table(rows));
+    fmt::print("{}\n{}", charts::convergence_table(rows), charts::time_table(rows));
     if (!known.empty()) fmt::print("{} of {} settings were there already\n", known.size(), rows.size());
     if (!skipped.empty())
         fmt::print("{} of {} settings did not fit into the time; the same command goes on with them\n",
                    skipped.size(), ladder.size());
-    for (const auto& drawn : results::write_charts(options.folder / "charts", {{}, {}, {}, {}, rows}, {}, {}))
+    for (const auto& drawn : charts::write_charts(options.folder / "charts", {{}, {}, {}, {}, rows}, {}, {}))
         fmt::print("{}\n", drawn.files.empty() ? fmt::format("{}: not drawn: {}", drawn.kind, drawn.skipped)
                                                : drawn.files.back().string());
     fmt::print("strips: {}\nrows: {}\n", (options.folder / "strips").string(), csv.string());

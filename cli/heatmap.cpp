@@ -6,12 +6,12 @@
 #include <memory>
 
 #include "capture/image.h"
-#include "charts/geometry.h"
 #include "charts/heat_map.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "experiment/measurement.h"
 #include "replay/pixel_traffic.h"
+#include "results/geometry.h"
 #include "trace/error.h"
 
 namespace regather::cli {
@@ -37,7 +37,7 @@ void run(const Options& options) {
     const Measurement measurement(trace, reads, reorder::default_onchip_bytes);
     const trace::TraceInfo& info = trace.info();
     const auto query_pixel = trace.column<std::uint32_t>("query_pixel");
-    std::vector<results::HeatMap> maps;
+    std::vector<charts::HeatMap> maps;
     std::vector<capture::Channel> channels;
     {
         Progress progress;
@@ -58,10 +58,10 @@ void run(const Options& options) {
     std::filesystem::create_directories(options.folder);
     capture::write_exr(exr, info.image_width, info.image_height, channels);
     const results::Geometry geometry{caches[0].size_bytes, caches[0].line_bytes, caches[0].ways};
-    results::write_heat_map(png, maps, info.image_width, info.image_height,
-                            fmt::format("{}, {} queries, {}, LRU; white: none moved", info.scene,
-                                        results::decimal_count(static_cast<double>(info.queries)),
-                                        results::geometry_text(geometry)));
+    charts::write_heat_map(png, maps, info.image_width, info.image_height,
+                           fmt::format("{}, {} queries, {}, LRU; white: none moved", info.scene,
+                                       results::decimal_count(static_cast<double>(info.queries)),
+                                       results::geometry_text(geometry)));
     fmt::print("heat map: {} and {}\n", png.string(), exr.string());
 }
 

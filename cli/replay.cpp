@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <memory>
 
-#include "charts/benefit.h"
 #include "cli/commands.h"
 #include "cli/machine.h"
 #include "cli/progress.h"
 #include "cli/version.h"
 #include "experiment/measurement.h"
+#include "results/benefit.h"
 #include "results/csv.h"
 #include "results/provenance.h"
 #include "results/table.h"

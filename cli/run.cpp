@@ -13,7 +13,6 @@
 #include <memory>
 #include <set>
 
-#include "charts/benefit.h"
 #include "charts/chart.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
@@ -22,6 +21,7 @@
 #include "experiment/experiment.h"
 #include "experiment/measurement.h"
 #include "experiment/revisits.h"
+#include "results/benefit.h"
 #include "results/csv.h"
 #include "results/provenance.h"
 #include "results/table.h"
@@ -217,12 +217,12 @@ void add_run(CLI::App& app) {
         results::write_provenance(
             csv, {command_line(), version(), git_revision(), fmt::format("{}", fmt::join(checksums, " "))},
             parameters);
-        const auto charts = results::write_charts(options->folder / "charts", rows, {}, {});
+        const auto charts = charts::write_charts(options->folder / "charts", rows, {}, {});
         fmt::print("{}", results::table(rows));
         for (const fs::path& folder : captured.folders)
             fmt::print("image:  {}\n", (folder / "image.png").string());
         fmt::print("rows:   {}\n", csv.string());
-        for (const results::Drawn& drawn : charts) {
+        for (const charts::Drawn& drawn : charts) {
             if (drawn.files.empty()) {
                 fmt::print("chart:  no {}: {}\n", drawn.kind, drawn.skipped);
             } else {

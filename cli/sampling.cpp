@@ -87,7 +87,7 @@ void run(const Options& options) {
     results::write_csv<results::SamplingRow>(options.csv, rows);
     results::write_provenance(options.csv, {command_line(), version(), git_revision(), trace.checksum()},
                               trace.info().parameters);
-    fmt::print("{}rows: {}\n", results::accuracy_table(rows), options.csv.string());
+    fmt::print("{}rows: {}\n", charts::accuracy_table(rows), options.csv.string());
 }
 
 }  // namespace

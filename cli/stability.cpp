@@ -60,17 +60,16 @@ void run(const Options& options) {
                 study::run_case(*group, one, options.quick ? study::Effort::quick : study::Effort::full));
         }
     }
-    fmt::print("{}", results::stability_table(rows));
+    fmt::print("{}", charts::stability_table(rows));
     if (!options.folder.empty()) {
         results::write_csv<results::StabilityRow>(csv, rows);
         results::write_provenance(csv, {command_line(), version(), git_revision(), {}},
                                   nlohmann::json{{"quick", options.quick}});
-        results::Rows all;
+        charts::Rows all;
         all.stability = rows;
         fmt::print("{}\n", csv.string());
         const std::string kind = "stability";
-        for (const results::Drawn& drawn :
-             results::write_charts(options.folder, all, std::span(&kind, 1), {}))
+        for (const charts::Drawn& drawn : charts::write_charts(options.folder, all, std::span(&kind, 1), {}))
             for (const auto& file : drawn.files) fmt::print("{}\n", file.string());
     }
     std::size_t failed = 0;

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 
-#include "charts/geometry.h"
 #include "cli/progress.h"
 #include "cli/version.h"
 #include "experiment/measurement.h"
 #include "replay/detail.h"
 #include "results/csv.h"
+#include "results/geometry.h"
 #include "results/provenance.h"
 #include "trace/error.h"
 #include "trace/size.h"

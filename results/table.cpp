@@ -7,9 +7,9 @@
 #include <iterator>
 #include <vector>
 
-#include "charts/benefit.h"
-#include "charts/geometry.h"
-#include "charts/series.h"
+#include "results/benefit.h"
+#include "results/geometry.h"
+#include "results/parameters.h"
 
 namespace regather::results {
 namespace {

@@ -6,8 +6,10 @@
 #include <sstream>
 #include <vector>
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
+
+using namespace results;
 
 SamplingRow run(std::string parameters, std::uint64_t rate, std::uint64_t misses, std::uint64_t exact,
                 double seconds, Flag covered) {
@@ -85,4 +87,4 @@ TEST(Accuracy, TheTableReadsAsDrawnByHand) {
 }
 
 }  // namespace
-}  // namespace regather::results
+}  // namespace regather::charts

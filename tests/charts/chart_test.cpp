@@ -4,14 +4,16 @@
 #include <gtest/gtest.h>
 
 #include "charts/plot.h"
-#include "tests/results/drawing.h"
+#include "tests/charts/drawing.h"
 #include "tests/results/folder.h"
 #include "tests/results/rows.h"
 #include "trace/error.h"
 #include "trace/file.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
+
+using namespace results;
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -201,4 +203,4 @@ TEST(Chart, NamesFromOutsideCannotBreakTheScript) {
 }
 
 }  // namespace
-}  // namespace regather::results
+}  // namespace regather::charts

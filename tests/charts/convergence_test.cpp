@@ -6,10 +6,12 @@
 
 #include <cmath>
 
-#include "tests/results/drawing.h"
+#include "tests/charts/drawing.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
+
+using namespace results;
 
 using testing::HasSubstr;
 using testing::Not;
@@ -124,4 +126,4 @@ TEST(Convergence, RowsSurviveTheirCsv) {
 }
 
 }  // namespace
-}  // namespace regather::results
+}  // namespace regather::charts

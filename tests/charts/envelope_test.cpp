@@ -7,8 +7,10 @@
 
 #include "tests/results/rows.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
+
+using namespace results;
 
 using testing::ElementsAre;
 using testing::Pair;
@@ -86,4 +88,4 @@ TEST(Envelope, AReignEndsWhereAnotherGetsLowerAndTiesStayWithTheFirst) {
 }
 
 }  // namespace
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -2,12 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/results/drawing.h"
+#include "tests/charts/drawing.h"
 #include "tests/results/rows.h"
 #include "trace/error.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
+
+using namespace results;
 
 using testing::HasSubstr;
 using testing::Not;
@@ -73,4 +75,4 @@ TEST(Frames, AStandingCameraHasNoPath) {
 }
 
 }  // namespace
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -6,8 +6,10 @@
 
 #include "tests/results/folder.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
+
+using namespace results;
 
 std::string failure(std::string_view script) {
     try {
@@ -46,4 +48,4 @@ TEST(Gnuplot, AStringShowsItselfWhateverItHolds) {
 }
 
 }  // namespace
-}  // namespace regather::results
+}  // namespace regather::charts

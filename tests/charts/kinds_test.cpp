@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "charts/figure.h"
-#include "tests/results/drawing.h"
+#include "tests/charts/drawing.h"
 #include "tests/results/rows.h"
 #include "trace/error.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
+
+using namespace results;
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -254,4 +256,4 @@ TEST(Chart, EveryFurtherKindBecomesAPictureWhateverTheNames) {
 }
 
 }  // namespace
-}  // namespace regather::results
+}  // namespace regather::charts

@@ -8,8 +8,10 @@
 #include "tests/results/rows.h"
 #include "trace/error.h"
 
-namespace regather::results {
+namespace regather::charts {
 namespace {
+
+using namespace results;
 
 using testing::ElementsAre;
 
@@ -130,4 +132,4 @@ TEST(Series, NoTwoOrderingsLookAlike) {
 }
 
 }  // namespace
-}  // namespace regather::results
+}  // namespace regather::charts

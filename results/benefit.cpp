@@ -1,4 +1,4 @@
-#include "charts/benefit.h"
+#include "results/benefit.h"
 
 #include <fmt/format.h>
 

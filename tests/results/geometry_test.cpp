@@ -1,4 +1,4 @@
-#include "charts/geometry.h"
+#include "results/geometry.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-// tests/results/drawing.h -- what a composed chart draws, read back from its gnuplot script.
+// tests/charts/drawing.h -- what a composed chart draws, read back from its gnuplot script.
 #pragma once
 #include <string>
 
 #include "charts/chart.h"
 
-namespace regather::results {
+namespace regather::charts {
 
 inline Chart compose(std::string_view name, const Rows& rows, const ChartOptions& options = {}) {
     const ChartKind& kind = chart_kind(name);
@@ -21,4 +21,4 @@ inline std::string data_of(const Chart& chart, const std::string& block, const s
     return text.substr(start, text.find("EOD", start) - start);
 }
 
-}  // namespace regather::results
+}  // namespace regather::charts
