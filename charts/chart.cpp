@@ -140,7 +140,7 @@ std::vector<Drawn> write_charts(const std::filesystem::path& folder, const Rows&
         for (const auto& [picture, ending] :
              {std::pair{Picture::svg, "svg"}, std::pair{Picture::png, "png"}}) {
             drawn.files.push_back(folder / fmt::format("{}.{}", kind->name, ending));
-            trace::write_file(drawn.files.back(), render(chart, picture));
+            trace::write_whole(drawn.files.back(), render(chart, picture));
         }
     }
     return out;

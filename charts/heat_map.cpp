@@ -93,7 +93,7 @@ std::string heat_map_script(std::span<const HeatMap> maps, std::uint32_t width, 
 
 void write_heat_map(const std::filesystem::path& png, std::span<const HeatMap> maps, std::uint32_t width,
                     std::uint32_t height, const std::string& caption) {
-    trace::write_file(png, run_gnuplot(heat_map_script(maps, width, height, caption)));
+    trace::write_whole(png, run_gnuplot(heat_map_script(maps, width, height, caption)));
 }
 
 }  // namespace regather::charts

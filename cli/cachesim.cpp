@@ -184,7 +184,7 @@ void run(const Options& options) {
     if (options.csv.empty())
         write_all(stdout, rows, "stdout");
     else
-        trace::write_file(options.csv, rows);
+        trace::write_whole(options.csv, rows);
 }
 
 }  // namespace

@@ -174,7 +174,7 @@ void race(const Options& options) {
                                              (trace.folder() / "trace.json").string(), info.found_photons,
                                              result.contest.found_photons));
     if (!options.csv.empty()) {
-        trace::write_file(options.csv, csv_text(result));
+        trace::write_whole(options.csv, csv_text(result));
         results::write_provenance(options.csv, {command_line(), version(), git_revision(), trace.checksum()},
                                   info.parameters);
     }

@@ -122,7 +122,7 @@ void add_replay(CLI::App& app) {
                 fmt::print("{}", text);
                 return;
             }
-            trace::write_file(options->csv, text);
+            trace::write_whole(options->csv, text);
             results::write_provenance(options->csv,
                                       {command_line(), version(), git_revision(), trace.checksum()},
                                       trace.info().parameters);

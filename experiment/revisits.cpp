@@ -23,7 +23,7 @@ void write_revisits(const std::filesystem::path& path, const replay::Revisits& r
                          {"levels", levels},
                          {"by_distance", counts.by_distance}});
     }
-    trace::write_file(path, lines.dump(1) + '\n');
+    trace::write_whole(path, lines.dump(1) + '\n');
 }
 
 replay::Revisits read_revisits(const std::filesystem::path& path) {

@@ -119,7 +119,7 @@ public:
         json += section("materials", '{', materials(), '}') + ",\n";
         json += section("shapes", '[', shapes(), ']') + ",\n";
         json += section("lights", '[', lights(), ']') + "\n}\n";
-        trace::write_file(folder_ / "scene.json", json);  // last: without it the folder is no scene
+        trace::write_whole(folder_ / "scene.json", json);  // last: without it the folder is no scene
     }
 
 private:
@@ -214,7 +214,7 @@ private:
         drop_degenerate(surface);
         if (surface.triangles.empty()) return "";
         const std::string file = fmt::format("meshes/{}.ply", plain_name(name));
-        trace::write_file(folder_ / file, ply_of(surface));
+        trace::write_whole(folder_ / file, ply_of(surface));
         return file;
     }
 

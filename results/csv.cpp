@@ -282,7 +282,7 @@ std::vector<R> from_csv(std::string_view text, std::string_view file) {
 
 template <class R>
 void write_csv(const std::filesystem::path& path, std::type_identity_t<std::span<const R>> rows) {
-    trace::write_file(path, to_csv<R>(rows));
+    trace::write_whole(path, to_csv<R>(rows));
 }
 
 template <class R>

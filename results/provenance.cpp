@@ -39,8 +39,8 @@ void write_provenance(const std::filesystem::path& csv, const Provenance& proven
     out["trace_checksum"] = provenance.trace_checksum;
     out["trace_parameters"] = trace_parameters;
     // A command line may hold bytes that are no UTF-8: replaced, not thrown at the end of a long run.
-    trace::write_file(provenance_path(csv),
-                      out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    trace::write_whole(provenance_path(csv),
+                       out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace regather::results

@@ -2,62 +2,122 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <memory>
 #include <system_error>
+#include <utility>
 
 #include "trace/error.h"
+#include "trace/text.h"
 
 namespace regather::trace {
 
-std::string read_file(const std::filesystem::path& path) {
-    const auto refuse = [&] {
-        return DataError(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
+namespace {
+
+/// A file descriptor that is closed at the end.
+class Descriptor {
+public:
+    explicit Descriptor(int number) : number_(number) {}
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor() {
+        if (number_ >= 0) ::close(number_);
+    }
+    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+    int number() const { return number_; }
+
+private:
+    int number_;
+};
+
+constexpr std::size_t most_shown = 300;  // of a path
+
+/// The file of this name, created if needed, which no other process is writing.
+template <class Fail>
+Descriptor locked(const std::filesystem::path& path, const Fail& fail) {
+    while (true) {
+        Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
+        if (file.number() < 0) fail(std::strerror(errno));
+        // A file system without locks has none that could be held.
+        if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+            fail("another process is writing it");
+        // Its writer may have renamed it between the two calls: then the name is another file's, or nobody's.
+        struct stat opened {
+        }, named{};
+        if (::fstat(file.number(), &opened) == 0 && ::stat(path.c_str(), &named) == 0 &&
+            opened.st_ino == named.st_ino && opened.st_dev == named.st_dev)
+            return file;
+    }
+}
+
+}  // namespace
+
+std::string read_file(const std::filesystem::path& path, std::uint64_t most_bytes) {
+    const auto refuse = [&](const std::string& found) {
+        return DataError(fmt::format("{}: found {}, expected a file of at most {} bytes",
+                                     shown(path.string(), most_shown), found, most_bytes));
     };
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
-    if (!file) throw refuse();
-    std::string bytes;
-    char block[1 << 16];
-    while (const std::size_t got = std::fread(block, 1, sizeof block, file.get())) bytes.append(block, got);
-    if (std::ferror(file.get())) throw refuse();  // a folder opens, but does not read
+    const auto reason = [] { return fmt::format("what cannot be read ({})", std::strerror(errno)); };
+    // Without O_NONBLOCK a pipe would wait for its writer.
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (file.number() < 0) throw refuse(errno == ENOENT ? "no such file" : reason());
+    struct stat info {};
+    if (::fstat(file.number(), &info) != 0) throw refuse(reason());
+    if (S_ISDIR(info.st_mode)) throw refuse("a folder");
+    if (!S_ISREG(info.st_mode)) throw refuse("a device or a pipe");
+    const auto size = static_cast<std::uint64_t>(info.st_size);
+    if (size > most_bytes) throw refuse(fmt::format("{} bytes", size));
+    // Files that grow are read to their end, and some file systems (/proc) say 0: one byte more tells.
+    std::string bytes(size + 1, '\0');
+    std::size_t filled = 0;
+    while (true) {
+        const ssize_t got = ::read(file.number(), bytes.data() + filled, bytes.size() - filled);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) throw refuse(reason());
+        if (got == 0) break;
+        filled += static_cast<std::size_t>(got);
+        if (filled > most_bytes) throw refuse(fmt::format("more than {} bytes", most_bytes));
+        if (filled == bytes.size()) bytes.resize(2 * bytes.size());
+    }
+    bytes.resize(filled);
     return bytes;
 }
 
-void write_file(const std::filesystem::path& path, std::string_view bytes) {
+void write_whole(const std::filesystem::path& path, std::string_view bytes) {
     std::filesystem::path partial = path;
     partial += ".partial";
-    int file = -1;
-    const auto fail = [&] {
-        const int reason = errno;
-        if (file >= 0) ::close(file);
-        ::unlink(partial.c_str());
+    bool ours = false;
+    const auto fail = [&](const char* reason) {
+        if (ours) ::unlink(partial.c_str());
         throw std::runtime_error(
-            fmt::format("{}: cannot be written: {}", path.string(), std::strerror(reason)));
+            fmt::format("{}: cannot be written: {}", shown(path.string(), most_shown), reason));
     };
     if (path.has_parent_path()) {
         std::error_code error;
         std::filesystem::create_directories(path.parent_path(), error);
-        if (error) {
-            errno = error.value();
-            fail();
-        }
+        if (error) fail(std::strerror(error.value()));
     }
-    file = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (file < 0) fail();
+    Descriptor file = locked(partial, fail);
+    ours = true;
+    if (::ftruncate(file.number(), 0) != 0) fail(std::strerror(errno));
     while (!bytes.empty()) {
-        const ssize_t written = ::write(file, bytes.data(), bytes.size());
+        const ssize_t written = ::write(file.number(), bytes.data(), bytes.size());
         if (written < 0 && errno == EINTR) continue;
-        if (written < 0) fail();
+        if (written < 0) fail(std::strerror(errno));
         bytes.remove_prefix(static_cast<std::size_t>(written));
     }
-    if (::fsync(file) != 0) fail();
-    const int closed = ::close(file);
-    file = -1;
-    if (closed != 0 || ::rename(partial.c_str(), path.c_str()) != 0) fail();
+    if (::fsync(file.number()) != 0 || ::rename(partial.c_str(), path.c_str()) != 0)
+        fail(std::strerror(errno));
+    sync_folder(path.parent_path());
+}
+
+void sync_folder(const std::filesystem::path& folder) {
+    const Descriptor opened(
+        ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (opened.number() >= 0) ::fsync(opened.number());
 }
 
 }  // namespace regather::trace

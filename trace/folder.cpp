@@ -166,7 +166,7 @@ void TraceWriter::finish(const TraceInfo& info) {
               {"left_out", left_out},
               {"columns", columns}};
     if (info.frame) root["frame"] = *info.frame;
-    write_file(folder_ / "trace.json", root.dump(2) + "\n");
+    write_whole(folder_ / "trace.json", root.dump(2) + "\n");
 }
 
 TraceReader::TraceReader(fs::path folder) : folder_(std::move(folder)) {

@@ -242,7 +242,7 @@ FurnitureModel read_furniture(const Zip& zip, const std::string& name) {
     if (!contents.damage.empty()) fail(contents.damage, "a whole OBJ model");
 
     const TemporaryFolder temporary;
-    trace::write_file(temporary.path() / "model.obj", text);
+    trace::write_whole(temporary.path() / "model.obj", text);
     DefinedMaterials defined;
     for (const std::string& library : contents.libraries) {
         const fs::path path(library);
@@ -250,7 +250,7 @@ FurnitureModel read_furniture(const Zip& zip, const std::string& name) {
             fail(fmt::format("the material library {}", library), "one beside the model");
         if (!zip.has(folder + library)) continue;
         const std::string bytes = text_of(zip.read(folder + library, most_model_bytes));
-        trace::write_file(temporary.path() / path, bytes);
+        trace::write_whole(temporary.path() / path, bytes);
         defined.merge(defined_materials(bytes));
     }
     Mesh mesh;

@@ -101,7 +101,7 @@ TEST(Zip, EveryCutOfAnArchiveIsRefusedOrWhole) {
 
 TEST(Zip, WhatIsNoArchiveIsRefusedByName) {
     const Scratch scratch;
-    trace::write_file(scratch / "a.zip", "plain text, and long enough to be looked at twice");
+    trace::write_whole(scratch / "a.zip", "plain text, and long enough to be looked at twice");
     EXPECT_THAT(data_error([&] { Zip::open(scratch / "a.zip"); }),
                 HasSubstr("a.zip: found no sound zip archive"));
     EXPECT_THAT(data_error([&] { Zip::open(scratch / "missing.zip"); }),

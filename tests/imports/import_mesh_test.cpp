@@ -44,8 +44,8 @@ trace::Bounds3 bounds_of_object(const ImportedScene& scene) {
 
 TEST(ImportMesh, TheObjectStandsInTheMiddleOfTheFloorAtItsSize) {
     const Scratch scratch;
-    trace::write_file(scratch / "m.obj", model);
-    trace::write_file(scratch / "m.mtl", library);
+    trace::write_whole(scratch / "m.obj", model);
+    trace::write_whole(scratch / "m.mtl", library);
     trace::Bounds3 bounds = bounds_of_object(import_mesh(scratch / "m.obj", {.y_up = true, .size = 3}));
     EXPECT_NEAR(bounds.min.z, 0, 1e-5);
     EXPECT_NEAR(bounds.max.z, 3, 1e-5);
@@ -59,7 +59,7 @@ TEST(ImportMesh, TheObjectStandsInTheMiddleOfTheFloorAtItsSize) {
 
 TEST(ImportMesh, FacesStayOutwardWhicheverAxisIsUp) {
     const Scratch scratch;
-    trace::write_file(scratch / "m.obj", model);
+    trace::write_whole(scratch / "m.obj", model);
     for (const bool y_up : {true, false}) {
         const ImportedScene scene = import_mesh(scratch / "m.obj", {.y_up = y_up, .size = 3});
         double volume = 0;
@@ -76,8 +76,8 @@ TEST(ImportMesh, FacesStayOutwardWhicheverAxisIsUp) {
 
 TEST(ImportMesh, MaterialsAreTheFilesAndTheSceneLoads) {
     const Scratch scratch;
-    trace::write_file(scratch / "m.obj", model);
-    trace::write_file(scratch / "m.mtl", library);
+    trace::write_whole(scratch / "m.obj", model);
+    trace::write_whole(scratch / "m.mtl", library);
     write_scene(import_mesh(scratch / "m.obj"), scratch / "out");
     const Scene scene = scenes::load_scene((scratch / "out/scene.json").string());
     EXPECT_EQ(scene.triangles.size(), 4u + 128 + 2);
@@ -94,10 +94,10 @@ TEST(ImportMesh, MaterialsAreTheFilesAndTheSceneLoads) {
 
 TEST(ImportMesh, NonsenseIsRefused) {
     const Scratch scratch;
-    trace::write_file(scratch / "m.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n");
+    trace::write_whole(scratch / "m.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n");
     EXPECT_THAT(data_error([&] { import_mesh(scratch / "m.obj"); }), HasSubstr("m.obj: found"));
     EXPECT_THAT(data_error([&] { import_mesh(scratch / "gone.ply"); }), HasSubstr("gone.ply: found no file"));
-    trace::write_file(scratch / "m.obj", model);
+    trace::write_whole(scratch / "m.obj", model);
     EXPECT_THROW(import_mesh(scratch / "m.obj", {.size = 0}), trace::UsageError);
     EXPECT_THROW(import_mesh(scratch / "m.obj", {.size = std::nan("")}), trace::UsageError);
 }

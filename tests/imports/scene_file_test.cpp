@@ -132,7 +132,7 @@ TEST(SceneFile, AFolderThatHoldsSomethingIsNotReplacedUnlessForced) {
 TEST(SceneFile, EvenForceLeavesOtherPeoplesFoldersAlone) {
     const Scratch scratch;
     fs::create_directory(scratch / "out");
-    trace::write_file(scratch / "out/thesis.tex", "ten years");
+    trace::write_whole(scratch / "out/thesis.tex", "ten years");
     EXPECT_THROW(write_scene(small_scene(), scratch / "out", true), trace::UsageError);
     EXPECT_EQ(trace::read_file(scratch / "out/thesis.tex"), "ten years");
 }

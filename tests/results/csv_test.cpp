@@ -372,7 +372,8 @@ TEST(Csv, AFileIsReplacedWholeOrNotAtAll) {
         FAIL();
     } catch (const trace::DataError& error) {
         EXPECT_EQ(std::string(error.what()),
-                  (folder / "absent.csv").string() + ": cannot be read: No such file or directory");
+                  (folder / "absent.csv").string() +
+                      ": found no such file, expected a file of at most 1073741824 bytes");
     }
     EXPECT_THROW(read_csv(folder.path()), trace::DataError);
 }

@@ -2,39 +2,65 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
-
 namespace regather::trace {
 namespace {
 
-TEST(Text, PlainTextStandsInQuotes) {
-    EXPECT_EQ(in_quotes(""), R"("")");
-    EXPECT_EQ(in_quotes("a b"), R"("a b")");
-    EXPECT_EQ(in_quotes("a\"b\\c"), R"("a\"b\\c")");
-    EXPECT_EQ(in_quotes("Küche 漢 😀"), "\"Küche 漢 😀\"");  // 2, 3 and 4 bytes of UTF-8
+using namespace std::string_literals;
+
+TEST(Text, PlainTextIsShownAsItIs) {
+    EXPECT_EQ(shown("living room, 3rd floor"), "living room, 3rd floor");
+    EXPECT_EQ(shown("K\xc3\xbc"
+                    "che \xe2\x82\xac \xf0\x9f\x8f\xa0"),
+              "K\xc3\xbc"
+              "che \xe2\x82\xac \xf0\x9f\x8f\xa0");
+    EXPECT_EQ(shown("a \"b\" \\c"), "a \"b\" \\c");
+    EXPECT_EQ(in_quotes("a \"b\" \\c"), R"("a \"b\" \\c")");
 }
 
-TEST(Text, NothingThatATerminalObeysGetsThrough) {
-    EXPECT_EQ(in_quotes("a\nb\r\tc"), R"("a\nb\r\tc")");
-    EXPECT_EQ(in_quotes(std::string("a\0\x1b[2J\x7f", 7)), R"("a\x00\x1b[2J\x7f")");
-    EXPECT_EQ(in_quotes("\u009b31m"), R"("\u{9b}31m")");                // C1: the same as ESC [
-    EXPECT_EQ(in_quotes("a\u202eb\u2028"), R"("a\u{202e}b\u{2028}")");  // right to left, a line's end
+TEST(Text, ControlCharactersAreEscaped) {
+    EXPECT_EQ(shown("a\nb\tc\rd"), R"(a\nb\tc\rd)");
+    EXPECT_EQ(shown("\x1b[31mred\x7f\0"s), R"(\x1b[31mred\x7f\x00)");
+    EXPECT_EQ(shown("\xc2\x9b"
+                    "31m"),
+              R"(\u{9b}31m)");  // CSI, which terminals obey like ESC [
+    EXPECT_EQ(shown("a\xe2\x80\xae"
+                    "b\xe2\x80\xa8"),
+              R"(a\u{202e}b\u{2028})");  // right-to-left override, line separator
 }
 
-TEST(Text, BytesThatAreNotUtf8AreShownAsBytes) {
-    EXPECT_EQ(in_quotes("\xff"), R"("\xff")");
-    EXPECT_EQ(in_quotes("a\xc3"), R"("a\xc3")");        // cut
-    EXPECT_EQ(in_quotes("\xc0\x80"), R"("\xc0\x80")");  // overlong
-    EXPECT_EQ(in_quotes("\xe0\x80\xaf"), R"("\xe0\x80\xaf")");
-    EXPECT_EQ(in_quotes("\xed\xa0\x80"), R"("\xed\xa0\x80")");          // half of a surrogate pair
-    EXPECT_EQ(in_quotes("\xf4\x90\x80\x80"), R"("\xf4\x90\x80\x80")");  // beyond U+10FFFF
+TEST(Text, BytesThatAreNoUtf8AreEscapedOneByOne) {
+    EXPECT_EQ(shown("\xff"), R"(\xff)");
+    EXPECT_EQ(shown("a\xc3("), R"(a\xc3()");                      // begun, not ended
+    EXPECT_EQ(shown("\xc0\xaf"), R"(\xc0\xaf)");                  // '/' in two bytes: overlong
+    EXPECT_EQ(shown("\xed\xa0\x80"), R"(\xed\xa0\x80)");          // half a surrogate pair
+    EXPECT_EQ(shown("\xf4\x90\x80\x80"), R"(\xf4\x90\x80\x80)");  // U+110000
+}
+
+// Unicode 15, table 3-7: the first and the last of each row, and their neighbours that are not well-formed.
+TEST(Text, LengthsOfCharactersAreThoseOfTheStandard) {
+    EXPECT_EQ(utf8_length(""), 0u);
+    EXPECT_EQ(utf8_length("\x7f"), 1u);
+    EXPECT_EQ(utf8_length("\x80"), 0u);
+    EXPECT_EQ(utf8_length("\xc1\xbf"), 0u);
+    EXPECT_EQ(utf8_length("\xc2\x80"), 2u);
+    EXPECT_EQ(utf8_length("\xdf\xbf"), 2u);
+    EXPECT_EQ(utf8_length("\xe0\x9f\xbf"), 0u);
+    EXPECT_EQ(utf8_length("\xe0\xa0\x80"), 3u);
+    EXPECT_EQ(utf8_length("\xed\x9f\xbf"), 3u);
+    EXPECT_EQ(utf8_length("\xed\xa0\x80"), 0u);
+    EXPECT_EQ(utf8_length("\xee\x80\x80"), 3u);
+    EXPECT_EQ(utf8_length("\xf0\x8f\xbf\xbf"), 0u);
+    EXPECT_EQ(utf8_length("\xf0\x90\x80\x80"), 4u);
+    EXPECT_EQ(utf8_length("\xf4\x8f\xbf\xbf"), 4u);
+    EXPECT_EQ(utf8_length("\xf5\x80\x80\x80"), 0u);
+    EXPECT_EQ(utf8_length("\xe2\x82"), 0u);
 }
 
 TEST(Text, LongTextIsCutBetweenCharacters) {
-    EXPECT_EQ(in_quotes(std::string(60, 'x')), '"' + std::string(60, 'x') + '"');
-    EXPECT_EQ(in_quotes(std::string(61, 'x')), '"' + std::string(60, 'x') + "...\"");
-    EXPECT_EQ(in_quotes("abü", 3), R"("ab...")");
-    EXPECT_EQ(in_quotes("abü", 4), "\"abü\"");
+    EXPECT_EQ(shown("abcdef", 6), "abcdef");
+    EXPECT_EQ(shown("abcdefg", 6), "abcdef...");
+    EXPECT_EQ(shown("abcd\xe2\x82\xac", 6), "abcd...");
+    EXPECT_EQ(in_quotes(std::string(1000, 'x'), 4), "\"xxxx...\"");
 }
 
 }  // namespace
