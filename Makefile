@@ -5,7 +5,7 @@ PRESET ?= release
 OUT ?= out/room
 build = build/$(PRESET)
 
-.PHONY: run test test-slow tests binary bench clean scenes-packages
+.PHONY: run test test-slow tests fuzz binary bench clean scenes-packages
 
 run: binary
 	$(build)/regather run scenes/experiments/room-small.json -o $(OUT)
@@ -25,6 +25,13 @@ tests:
 	@cmake/install_packages.sh packages.txt packages-test.txt
 	cmake --preset $(PRESET) -D REGATHER_TESTS=ON -D REGATHER_BENCHMARKS=OFF
 	cmake --build --preset $(PRESET)
+
+# A minute for each reader; an input that ends badly is left in build/fuzz/fuzz/NAME.
+fuzz:
+	@cmake/install_packages.sh packages.txt packages-test.txt
+	cmake --preset fuzz
+	cmake --build --preset fuzz
+	REGATHER_FUZZ_SECONDS=$(or $(SECONDS),60) ctest --preset fuzz
 
 # Scenes of others, for `regather import`: 0.5 GB, and never needed by run or test.
 scenes-packages:

@@ -6,13 +6,14 @@
 #include <limits>
 
 #include "trace/error.h"
+#include "trace/text.h"
 
 namespace regather::cli {
 
 std::uint64_t parse_size(std::string_view text) {
     const auto refuse = [&] {
-        return trace::UsageError(
-            fmt::format("size: found '{}', expected bytes below 2^64 as 4096, 16K, 1M or 2G", text));
+        return trace::UsageError(fmt::format(
+            "size: found '{}', expected bytes below 2^64 as 4096, 16K, 1M or 2G", trace::shown(text)));
     };
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -24,5 +24,15 @@ TEST(ParseSize, AllElseIsAUsageError) {
         EXPECT_THROW(parse_size(text), trace::UsageError) << text;
 }
 
+TEST(ParseSize, ShowsWhatItRefusesOnOneLine) {
+    try {
+        parse_size("16\x03\n");
+        FAIL();
+    } catch (const trace::UsageError& error) {
+        EXPECT_EQ(std::string(error.what()),
+                  "size: found '16\\x03\\n', expected bytes below 2^64 as 4096, 16K, 1M or 2G");
+    }
+}
+
 }  // namespace
 }  // namespace regather::cli
