@@ -7,31 +7,31 @@ Vec3 Coordinates::to_float(const std::array<double, 3>& p) const {
             static_cast<float>(p[2] - origin_[2])};
 }
 
-Vec3 Coordinates::point(const Node& object, const Kind& kind, std::string_view key) const {
+Vec3 Coordinates::point(const Field& object, const Kind& kind, std::string_view key) const {
     return to_float(absolute(object, kind, key));
 }
 
-std::array<double, 3> Coordinates::absolute(const Node& object, const Kind& kind, std::string_view key) {
+std::array<double, 3> Coordinates::absolute(const Field& object, const Kind& kind, std::string_view key) {
     return object[key].numbers(-most_coordinate, most_coordinate, kind.key(key).expected);
 }
 
-Vec3 Coordinates::vector(const Node& object, const Kind& kind, std::string_view key) {
+Vec3 Coordinates::vector(const Field& object, const Kind& kind, std::string_view key) {
     const std::string_view expected = kind.key(key).expected;
     const Vec3 v = object[key].triple(-most_metres, most_metres, expected);
     if (v == Vec3{}) object[key].fail("a vector of length 0", expected);
     return v;
 }
 
-float Coordinates::positive(const Node& object, const Kind& kind, std::string_view key) {
+float Coordinates::positive(const Field& object, const Kind& kind, std::string_view key) {
     return static_cast<float>(
-        object[key].number(0, most_metres, kind.key(key).expected, Node::Ends::open_low));
+        object[key].number(0, most_metres, kind.key(key).expected, Field::Ends::open_low));
 }
 
-float Coordinates::not_negative(const Node& object, const Kind& kind, std::string_view key) {
+float Coordinates::not_negative(const Field& object, const Kind& kind, std::string_view key) {
     return static_cast<float>(object[key].number(0, most_metres, kind.key(key).expected));
 }
 
-double Coordinates::degrees(const Node& object, const Kind& kind, std::string_view key) {
+double Coordinates::degrees(const Field& object, const Kind& kind, std::string_view key) {
     return object.has(key) ? object[key].number(-360, 360, kind.key(key).expected) : 0;
 }
 

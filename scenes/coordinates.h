@@ -5,7 +5,6 @@
 #include <array>
 #include <string_view>
 
-#include "scenes/document.h"
 #include "scenes/keys.h"
 #include "trace/vec.h"
 
@@ -21,18 +20,18 @@ public:
     explicit Coordinates(std::array<double, 3> origin) : origin_(origin) {}
 
     /// Relative to the origin.
-    Vec3 point(const Node& object, const Kind& kind, std::string_view key) const;
+    Vec3 point(const Field& object, const Kind& kind, std::string_view key) const;
     Vec3 to_float(const std::array<double, 3>& p) const;
     const std::array<double, 3>& origin() const { return origin_; }
 
-    static std::array<double, 3> absolute(const Node& object, const Kind& kind, std::string_view key);
+    static std::array<double, 3> absolute(const Field& object, const Kind& kind, std::string_view key);
     /// Refuses the vector of length 0.
-    static Vec3 vector(const Node& object, const Kind& kind, std::string_view key);
+    static Vec3 vector(const Field& object, const Kind& kind, std::string_view key);
     /// Above 0.
-    static float positive(const Node& object, const Kind& kind, std::string_view key);
-    static float not_negative(const Node& object, const Kind& kind, std::string_view key);
+    static float positive(const Field& object, const Kind& kind, std::string_view key);
+    static float not_negative(const Field& object, const Kind& kind, std::string_view key);
     /// 0 when the key is not there.
-    static double degrees(const Node& object, const Kind& kind, std::string_view key);
+    static double degrees(const Field& object, const Kind& kind, std::string_view key);
 
 private:
     std::array<double, 3> origin_;

@@ -1,8 +1,5 @@
 #include "scenes/keys.h"
 
-#include <algorithm>
-#include <stdexcept>
-
 namespace regather::scenes {
 
 namespace {
@@ -190,12 +187,6 @@ std::span<const Kind> material_kinds() {
          {{"kind", required, "the kind of a material"},
           {"index_of_refraction", required, "an index of refraction, from 1 to 10"}}}};
     return kinds;
-}
-
-const Key& Kind::key(std::string_view key_name) const {
-    for (const Key& key : keys)
-        if (key.name == key_name) return key;
-    throw std::logic_error("no key " + std::string(key_name) + " in the table of " + std::string(name));
 }
 
 }  // namespace regather::scenes

@@ -2,24 +2,12 @@
 // against. docs/scene_format.md explains the same keys to people.
 #pragma once
 #include <span>
-#include <string>
-#include <string_view>
-#include <vector>
+
+#include "trace/field.h"
 
 namespace regather::scenes {
 
-struct Key {
-    std::string_view name;
-    bool required;
-    std::string_view expected;  ///< "a positive length [m]": what an error message says was expected.
-};
-
-/// A kind of object: "scene", "camera", "sphere", "diffuse material" ...
-struct Kind {
-    std::string_view name;
-    std::vector<Key> keys;
-    const Key& key(std::string_view key_name) const;  ///< One that is in the table.
-};
+using trace::Field, trace::Key, trace::Kind;
 
 const Kind& scene_kind();
 const Kind& camera_kind();

@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <vector>
 
 #include "scenes/catalogue.h"
 #include "scenes/coordinates.h"
-#include "scenes/document.h"
 #include "scenes/scene_builder.h"
 #include "trace/error.h"
+#include "trace/field.h"
+#include "trace/file.h"
+#include "trace/text.h"
 #include "trace/word.h"
 
 namespace regather::scenes {
@@ -22,7 +22,7 @@ using trace::UsageError;
 
 namespace {
 
-constexpr std::uintmax_t most_file_bytes = 256u << 20;
+constexpr std::uint64_t most_scene_bytes = 256u << 20;
 // A scene farther from its origin than this many of its sizes is recentred: 10 of a float's 24 bits are then
 // lost.
 constexpr double far_in_sizes = 64;
@@ -59,8 +59,8 @@ bool is_far(const Scene& scene) {
 }  // namespace
 
 Scene parse_scene(std::string_view text, const std::string& file, const std::filesystem::path& directory) {
-    const Document document(text, file);
-    const Node root = document.root();
+    const trace::Document document(text, file, "scene");
+    const Field root = document.root();
     MeshStore meshes(directory);
     BuiltScene built = build_scene(root, {}, meshes);
     if (is_far(built.scene)) {
@@ -88,22 +88,13 @@ Scene load_scene(std::string_view name_or_path) {
     if (!std::filesystem::exists(status)) {
         if (file.find('/') == std::string::npos && !path.has_extension())
             throw UsageError(fmt::format(
-                "scene: found {}, expected {} or a JSON file (embedded scenes: {})", in_quotes(file),
+                "scene: found {}, expected {} or a JSON file (embedded scenes: {})", trace::in_quotes(file),
                 trace::alternatives(trace::nearest_words(file, names)), trace::listed(names)));
         throw DataError(
             fmt::format("{}: found no file, expected a JSON scene or one of the embedded scenes {}", file,
                         trace::listed(names)));
     }
-    if (!std::filesystem::is_regular_file(status))
-        throw DataError(fmt::format("{}: found no regular file, expected a JSON scene", file));
-    const std::uintmax_t bytes = std::filesystem::file_size(path, error);
-    if (error || bytes > most_file_bytes)
-        throw DataError(fmt::format("{}: found {} bytes, expected a JSON scene of at most {}", file, bytes,
-                                    most_file_bytes));
-    std::ifstream stream(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    if (!stream && text.empty()) throw DataError(fmt::format("{}: found a file that cannot be read", file));
-    return parse_scene(text, file, path.parent_path());
+    return parse_scene(trace::read_file(path, most_scene_bytes), file, path.parent_path());
 }
 
 }  // namespace regather::scenes

@@ -10,8 +10,8 @@ constexpr std::string_view channel_names[] = {"red", "green", "blue"};
 
 }  // namespace
 
-Material read_material(const std::string& name, const Node& node) {
-    const Kind& kind = node.check_object(material_kinds(), "kind", "material");
+Material read_material(const std::string& name, const Field& node) {
+    const Kind& kind = node.check(material_kinds(), "kind", "material");
     Material material;
     material.name = name;
     material.diffuse = {};

@@ -2,12 +2,12 @@
 #pragma once
 #include <string>
 
-#include "scenes/document.h"
+#include "scenes/keys.h"
 #include "scenes/scene.h"
 
 namespace regather::scenes {
 
 /// Refuses one that reflects more than it gets.
-Material read_material(const std::string& name, const Node& node);
+Material read_material(const std::string& name, const Field& node);
 
 }  // namespace regather::scenes

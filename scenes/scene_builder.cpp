@@ -12,6 +12,7 @@
 #include "scenes/material.h"
 #include "scenes/shape.h"
 #include "trace/error.h"
+#include "trace/text.h"
 #include "trace/word.h"
 
 namespace regather::scenes {
@@ -63,9 +64,9 @@ class Builder {
 public:
     Builder(const std::array<double, 3>& origin, MeshStore& meshes) : coordinates_(origin), meshes_(meshes) {}
 
-    BuiltScene build(const Node& root) {
+    BuiltScene build(const Field& root) {
         const Kind& kind = scene_kind();
-        root.check_object(kind);
+        root.check(kind);
         read_name(root["name"]);
         for (const auto& [key, text] :
              {std::pair{"origin", &Scene::origin}, std::pair{"licence", &Scene::licence}})
@@ -85,9 +86,9 @@ public:
             for (const auto& [name, node] : root["objects"].members(expected(kind, "objects")))
                 read_object(name, node);
         if (root.has("shapes"))
-            for (const Node& node : root["shapes"].elements(expected(kind, "shapes"))) add_shape(node);
+            for (const Field& node : root["shapes"].elements(expected(kind, "shapes"))) add_shape(node);
         if (root.has("lights"))
-            for (const Node& node : root["lights"].elements(expected(kind, "lights"))) add_light(node);
+            for (const Field& node : root["lights"].elements(expected(kind, "lights"))) add_light(node);
         if (scene_.triangles.empty()) root.fail("neither shapes nor lights", "at least one of them");
         scene_.recentred_by = coordinates_.origin();
         return {std::move(scene_), std::move(flat_shape_)};
@@ -95,19 +96,19 @@ public:
 
 private:
     // --- name, camera and its path ---
-    void read_name(const Node& node) {
+    void read_name(const Field& node) {
         const std::string_view wanted = expected(scene_kind(), "name");
         const std::string& name = node.text(wanted);
         const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
             return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
                    c == '-' || c == '.';
         });
-        if (name.empty() || name.size() > 64 || !plain) node.fail(in_quotes(name), wanted);
+        if (name.empty() || name.size() > 64 || !plain) node.fail(trace::in_quotes(name), wanted);
         scene_.name = name;
     }
 
     // `eye`: "the camera".
-    static void check_view(const Node& node, const Kind& kind, Vec3 up, std::string_view eye) {
+    static void check_view(const Field& node, const Kind& kind, Vec3 up, std::string_view eye) {
         const auto from = Coordinates::absolute(node, kind, "position"),
                    to = Coordinates::absolute(node, kind, "target");
         const Vec3 view{static_cast<float>(to[0] - from[0]), static_cast<float>(to[1] - from[1]),
@@ -120,28 +121,28 @@ private:
                 .fail("a direction parallel to the view", "one at an angle to target - position");
     }
 
-    void read_camera(const Node& node) {
+    void read_camera(const Field& node) {
         const Kind& kind = camera_kind();
-        node.check_object(kind);
+        node.check(kind);
         Camera& camera = scene_.camera;
         camera.position = coordinates_.point(node, kind, "position");
         camera.target = coordinates_.point(node, kind, "target");
         camera.up = Coordinates::vector(node, kind, "up");
         camera.vertical_fov_degrees = static_cast<float>(node["vertical_fov_degrees"].number(
-            0, 180, expected(kind, "vertical_fov_degrees"), Node::Ends::open));
+            0, 180, expected(kind, "vertical_fov_degrees"), Field::Ends::open));
         check_view(node, kind, camera.up, "the camera");
     }
 
-    void read_camera_path(const Node& node) {
+    void read_camera_path(const Field& node) {
         const Kind& kind = camera_path_kind();
-        node.check_object(kind);
+        node.check(kind);
         const std::string_view wanted = expected(kind, "keys");
         scene_.frames = node["frames"].whole(2, most_frames, expected(kind, "frames"));
-        const std::vector<Node> keys = node["keys"].elements(wanted);
+        const std::vector<Field> keys = node["keys"].elements(wanted);
         if (keys.size() < 2) node["keys"].fail(fmt::format("a list of {}", keys.size()), wanted);
-        for (const Node& key : keys) {
+        for (const Field& key : keys) {
             const Kind& key_kind = key_frame_kind();
-            key.check_object(key_kind);
+            key.check(key_kind);
             KeyFrame frame;
             frame.frame = key["frame"].whole(0, scene_.frames - 1, expected(key_kind, "frame"));
             const bool is_first = scene_.camera_path.empty();
@@ -163,17 +164,17 @@ private:
     }
 
     // --- materials ---
-    std::uint32_t material_named(const std::string& name, const Node& node) const {
+    std::uint32_t material_named(const std::string& name, const Field& node) const {
         const auto found = materials_.find(name);
         if (found != materials_.end()) return found->second;
         std::vector<std::string_view> names;
         for (const auto& [known, index] : materials_) names.push_back(known);
-        if (names.empty()) node.fail(in_quotes(name), "a material, and the scene has none");
-        node.fail("unknown material " + in_quotes(name),
+        if (names.empty()) node.fail(trace::in_quotes(name), "a material, and the scene has none");
+        node.fail("unknown material " + trace::in_quotes(name),
                   trace::alternatives(trace::nearest_words(name, names)));
     }
 
-    std::uint32_t material_of(const Node& node, const Kind& kind) const {
+    std::uint32_t material_of(const Field& node, const Kind& kind) const {
         return material_named(node["material"].text(expected(kind, "material")), node["material"]);
     }
 
@@ -187,7 +188,7 @@ private:
     }
 
     // Which of the scene's materials each of the mesh's own is.
-    std::vector<std::uint32_t> own_materials(const Node& node, const Kind& kind, const std::string& file,
+    std::vector<std::uint32_t> own_materials(const Field& node, const Kind& kind, const std::string& file,
                                              const Mesh& mesh) {
         constexpr std::uint32_t none = ~0u;
         std::vector<std::uint32_t> chosen(mesh.materials.size(), none);
@@ -203,8 +204,9 @@ private:
                 if (!is_there) {
                     std::vector<std::string_view> names;
                     for (const Material& m : mesh.materials) names.push_back(m.name);
-                    value.fail(fmt::format("{}, no material of {}", in_quotes(name), in_quotes(file)),
-                               trace::alternatives(trace::nearest_words(name, names)));
+                    value.fail(
+                        fmt::format("{}, no material of {}", trace::in_quotes(name), trace::in_quotes(file)),
+                        trace::alternatives(trace::nearest_words(name, names)));
                 }
             }
         std::vector<std::uint32_t>& own = own_materials_[file];
@@ -212,8 +214,9 @@ private:
         for (const std::uint32_t m : mesh.triangle_material) {
             if (chosen[m] != none) continue;
             if (!mesh.missing_library.empty())
-                node["file"].fail(fmt::format("no material library {}", in_quotes(mesh.missing_library)),
-                                  "that file, or a \"material\" for all faces");
+                node["file"].fail(
+                    fmt::format("no material library {}", trace::in_quotes(mesh.missing_library)),
+                    "that file, or a \"material\" for all faces");
             if (own[m] == none) {
                 own[m] = static_cast<std::uint32_t>(scene_.materials.size());
                 scene_.materials.push_back(mesh.materials[m]);
@@ -225,7 +228,7 @@ private:
 
     // --- shapes ---
     // Kept and not thrown: near another origin the shape may have its area.
-    void note_flat(const Node& node, std::string_view found, std::string_view expected) {
+    void note_flat(const Field& node, std::string_view found, std::string_view expected) {
         if (flat_shape_) return;
         try {
             node.fail(found, expected);
@@ -234,14 +237,14 @@ private:
         }
     }
 
-    void require_room_for(const Node& node, std::uint64_t triangles) const {
+    void require_room_for(const Field& node, std::uint64_t triangles) const {
         if (triangles > most_triangles || triangles > most_triangles - scene_.triangles.size())
             node.fail(
                 fmt::format("{} triangles after {} of the shapes before", triangles, scene_.triangles.size()),
                 fmt::format("at most {} in a scene", most_triangles));
     }
 
-    Surface made(const Node& node, const Kind& kind, const Coordinates& coordinates) {
+    Surface made(const Field& node, const Kind& kind, const Coordinates& coordinates) {
         const Shape shape = read_shape(node, kind, coordinates);
         require_room_for(node, triangle_count(shape));
         Surface surface = tessellate(shape);
@@ -254,27 +257,28 @@ private:
         return surface;
     }
 
-    const Mesh& mesh_of(const Node& node, const Kind& kind) {
+    const Mesh& mesh_of(const Field& node, const Kind& kind) {
         const std::string& name = node["file"].text(expected(kind, "file"));
         try {
             return meshes_.get(name);
         } catch (const DataError& error) {
-            node["file"].fail(in_quotes(name), fmt::format("a readable mesh ({})", error.what()));
+            node["file"].fail(trace::in_quotes(name), fmt::format("a readable mesh ({})", error.what()));
         }
     }
 
-    Piece placed_mesh(const Node& node, const Kind& kind, const Coordinates& coordinates) {
+    Piece placed_mesh(const Field& node, const Kind& kind, const Coordinates& coordinates) {
         const Mesh& mesh = mesh_of(node, kind);
         require_room_for(node, mesh.surface.triangles.size());
         Placement placement;
         if (node.has("up_axis")) {
             const std::string& axis = node["up_axis"].text(expected(kind, "up_axis"));
-            if (axis != "y" && axis != "z") node["up_axis"].fail(in_quotes(axis), expected(kind, "up_axis"));
+            if (axis != "y" && axis != "z")
+                node["up_axis"].fail(trace::in_quotes(axis), expected(kind, "up_axis"));
             placement.y_is_up = axis == "y";
         }
         if (node.has("scale"))
             placement.scale =
-                node["scale"].number(0, most_metres, expected(kind, "scale"), Node::Ends::open_low);
+                node["scale"].number(0, most_metres, expected(kind, "scale"), Field::Ends::open_low);
         placement.degrees = Coordinates::degrees(node, kind, "rotate_z_degrees");
         if (node.has("translate")) placement.translate = Coordinates::absolute(node, kind, "translate");
         for (std::size_t axis = 0; axis < 3; ++axis) placement.translate[axis] -= coordinates.origin()[axis];
@@ -297,7 +301,7 @@ private:
     }
 
     // Any shape but instances.
-    Piece read_piece(const Node& node, const Kind& kind, const Coordinates& coordinates) {
+    Piece read_piece(const Field& node, const Kind& kind, const Coordinates& coordinates) {
         if (kind.name == "mesh") {
             Piece piece;
             if (node.has("material")) {
@@ -319,33 +323,34 @@ private:
         return piece;
     }
 
-    void read_object(const std::string& name, const Node& node) {
+    void read_object(const std::string& name, const Field& node) {
         const Coordinates own(std::array<double, 3>{});
         std::uint64_t triangles = 0;
         std::vector<Piece>& pieces = objects_[name];
-        for (const Node& shape : node.elements("a list of shapes")) {
-            const Kind& kind = shape.check_object(shape_kinds(), "type", "shape");
+        for (const Field& shape : node.elements("a list of shapes")) {
+            const Kind& kind = shape.check(shape_kinds(), "type", "shape");
             if (kind.name == "instances")
-                shape["type"].fail(in_quotes(kind.name), "a shape that is not made of objects");
+                shape["type"].fail(trace::in_quotes(kind.name), "a shape that is not made of objects");
             pieces.push_back(read_piece(shape, kind, own));
             require_room_for(shape, triangles += pieces.back().surface.triangles.size());
         }
         if (pieces.empty()) node.fail("an empty list", "at least one shape");
     }
 
-    void add_instances(const Node& node, const Kind& kind) {
+    void add_instances(const Field& node, const Kind& kind) {
         const std::string& name = node["object"].text(expected(kind, "object"));
         const auto found = objects_.find(name);
         if (found == objects_.end()) {
             std::vector<std::string_view> names;
             for (const auto& [known, pieces] : objects_) names.push_back(known);
-            if (names.empty()) node["object"].fail(in_quotes(name), "an object, and the scene has none");
-            node["object"].fail("unknown object " + in_quotes(name),
+            if (names.empty())
+                node["object"].fail(trace::in_quotes(name), "an object, and the scene has none");
+            node["object"].fail("unknown object " + trace::in_quotes(name),
                                 trace::alternatives(trace::nearest_words(name, names)));
         }
         const std::string_view wanted = expected(kind, "at");
-        for (const Node& place : node["at"].elements(wanted)) {
-            const std::vector<Node> values = place.elements(wanted);
+        for (const Field& place : node["at"].elements(wanted)) {
+            const std::vector<Field> values = place.elements(wanted);
             if (values.size() != 3 && values.size() != 4)
                 place.fail(fmt::format("a list of {}", values.size()), wanted);
             Placement placement;
@@ -364,8 +369,8 @@ private:
         }
     }
 
-    void add_shape(const Node& node) {
-        const Kind& kind = node.check_object(shape_kinds(), "type", "shape");
+    void add_shape(const Field& node) {
+        const Kind& kind = node.check(shape_kinds(), "type", "shape");
         if (kind.name == "instances") {
             add_instances(node, kind);
         } else {
@@ -374,8 +379,8 @@ private:
     }
 
     // --- lights ---
-    void add_light(const Node& node) {
-        const Kind& kind = node.check_object(light_kinds(), "type", "light", &light_kinds()[0]);
+    void add_light(const Field& node) {
+        const Kind& kind = node.check(light_kinds(), "type", "light", &light_kinds()[0]);
         AreaLight light;
         Piece piece;
         const std::uint32_t material = node.has("material") ? material_of(node, kind) : black();
@@ -443,7 +448,7 @@ const Mesh& MeshStore::get(const std::string& name) {
                                   : meshes_.emplace(name, read_mesh(directory_ / name)).first->second;
 }
 
-BuiltScene build_scene(const Node& root, const std::array<double, 3>& origin, MeshStore& meshes) {
+BuiltScene build_scene(const Field& root, const std::array<double, 3>& origin, MeshStore& meshes) {
     return Builder(origin, meshes).build(root);
 }
 

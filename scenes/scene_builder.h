@@ -7,7 +7,7 @@
 #include <string>
 
 #include "meshes/mesh.h"
-#include "scenes/document.h"
+#include "scenes/keys.h"
 #include "scenes/scene.h"
 
 namespace regather::scenes {
@@ -33,6 +33,6 @@ struct BuiltScene {
 
 /// All points less `origin` [m], which goes into Scene::recentred_by. Throws trace::DataError for anything
 /// else that is wrong.
-BuiltScene build_scene(const Node& root, const std::array<double, 3>& origin, MeshStore& meshes);
+BuiltScene build_scene(const Field& root, const std::array<double, 3>& origin, MeshStore& meshes);
 
 }  // namespace regather::scenes

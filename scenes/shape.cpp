@@ -12,20 +12,20 @@ std::string_view expected(const Kind& kind, std::string_view key) {
     return kind.key(key).expected;
 }
 
-std::uint32_t read_segments(const Node& node, const Kind& kind, std::string_view key = "segments") {
+std::uint32_t read_segments(const Field& node, const Kind& kind, std::string_view key = "segments") {
     return node[key].whole(3, most_segments, expected(kind, key));
 }
 
 template <std::size_t n>
-void read_divide(const Node& node, const Kind& kind, std::array<std::uint32_t, n>& divide) {
+void read_divide(const Field& node, const Kind& kind, std::array<std::uint32_t, n>& divide) {
     if (!node.has("divide")) return;
     const std::string_view wanted = expected(kind, "divide");
-    const std::vector<Node> counts = node["divide"].elements(wanted);
+    const std::vector<Field> counts = node["divide"].elements(wanted);
     if (counts.size() != n) node["divide"].fail(fmt::format("a list of {}", counts.size()), wanted);
     for (std::size_t i = 0; i < n; ++i) divide[i] = counts[i].whole(1, most_cells, wanted);
 }
 
-Quad read_quad(const Node& node, const Kind& kind, const Coordinates& coordinates) {
+Quad read_quad(const Field& node, const Kind& kind, const Coordinates& coordinates) {
     Quad quad;
     quad.corner = coordinates.point(node, kind, "corner");
     quad.edge_u = Coordinates::vector(node, kind, "edge_u");
@@ -37,10 +37,10 @@ Quad read_quad(const Node& node, const Kind& kind, const Coordinates& coordinate
     return quad;
 }
 
-Patch read_patch(const Node& node, const Kind& kind, const Coordinates& coordinates) {
+Patch read_patch(const Field& node, const Kind& kind, const Coordinates& coordinates) {
     Patch patch;
     const std::string_view wanted = expected(kind, "corners");
-    const std::vector<Node> corners = node["corners"].elements(wanted);
+    const std::vector<Field> corners = node["corners"].elements(wanted);
     if (corners.size() != 4) node["corners"].fail(fmt::format("a list of {}", corners.size()), wanted);
     for (std::size_t i = 0; i < 4; ++i)
         patch.corners[i] =
@@ -49,7 +49,7 @@ Patch read_patch(const Node& node, const Kind& kind, const Coordinates& coordina
     return patch;
 }
 
-Box read_box(const Node& node, const Kind& kind, const Coordinates& coordinates) {
+Box read_box(const Field& node, const Kind& kind, const Coordinates& coordinates) {
     Box box;
     const auto min = Coordinates::absolute(node, kind, "min"), max = Coordinates::absolute(node, kind, "max");
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -63,7 +63,7 @@ Box read_box(const Node& node, const Kind& kind, const Coordinates& coordinates)
     return box;
 }
 
-Cylinder read_cylinder(const Node& node, const Kind& kind, const Coordinates& coordinates) {
+Cylinder read_cylinder(const Field& node, const Kind& kind, const Coordinates& coordinates) {
     Cylinder cylinder;
     if (Coordinates::absolute(node, kind, "from") == Coordinates::absolute(node, kind, "to"))
         node["to"].fail("the same point as from", expected(kind, "to"));
@@ -78,16 +78,16 @@ Cylinder read_cylinder(const Node& node, const Kind& kind, const Coordinates& co
     return cylinder;
 }
 
-Lathe read_lathe(const Node& node, const Kind& kind, const Coordinates& coordinates) {
+Lathe read_lathe(const Field& node, const Kind& kind, const Coordinates& coordinates) {
     Lathe lathe;
     lathe.center = coordinates.point(node, kind, "center");
     const std::string_view wanted = expected(kind, "profile");
-    const std::vector<Node> points = node["profile"].elements(wanted);
+    const std::vector<Field> points = node["profile"].elements(wanted);
     if (points.size() < 2 || points.size() > 4096)
         node["profile"].fail(fmt::format("a list of {}", points.size()), wanted);
     bool off_axis = false;
-    for (const Node& point : points) {
-        const std::vector<Node> two = point.elements(wanted);
+    for (const Field& point : points) {
+        const std::vector<Field> two = point.elements(wanted);
         if (two.size() != 2) point.fail(fmt::format("a list of {}", two.size()), wanted);
         lathe.profile.push_back({static_cast<float>(two[0].number(0, most_metres, wanted)),
                                  static_cast<float>(two[1].number(-most_metres, most_metres, wanted))});
@@ -101,19 +101,19 @@ Lathe read_lathe(const Node& node, const Kind& kind, const Coordinates& coordina
     return lathe;
 }
 
-Torus read_torus(const Node& node, const Kind& kind, const Coordinates& coordinates) {
+Torus read_torus(const Field& node, const Kind& kind, const Coordinates& coordinates) {
     Torus torus;
     torus.center = coordinates.point(node, kind, "center");
     if (node.has("axis")) torus.axis = Coordinates::vector(node, kind, "axis");
     torus.radius = Coordinates::positive(node, kind, "radius");
     torus.tube = static_cast<float>(
-        node["tube"].number(0, static_cast<double>(torus.radius), expected(kind, "tube"), Node::Ends::open));
+        node["tube"].number(0, static_cast<double>(torus.radius), expected(kind, "tube"), Field::Ends::open));
     torus.segments = read_segments(node, kind);
     torus.tube_segments = read_segments(node, kind, "tube_segments");
     return torus;
 }
 
-Ripple read_ripple(const Node& node, const Kind& kind, const Coordinates& coordinates) {
+Ripple read_ripple(const Field& node, const Kind& kind, const Coordinates& coordinates) {
     Ripple ripple;
     ripple.center = coordinates.point(node, kind, "center");
     ripple.size = Coordinates::positive(node, kind, "size");
@@ -123,14 +123,14 @@ Ripple read_ripple(const Node& node, const Kind& kind, const Coordinates& coordi
     if (node.has("depth"))
         ripple.depth =
             static_cast<float>(node["depth"].number(static_cast<double>(ripple.amplitude), most_metres,
-                                                    expected(kind, "depth"), Node::Ends::open_low));
+                                                    expected(kind, "depth"), Field::Ends::open_low));
     ripple.cells = node["cells"].whole(1, most_ripple_cells, expected(kind, "cells"));
     return ripple;
 }
 
 }  // namespace
 
-Shape read_shape(const Node& node, const Kind& kind, const Coordinates& coordinates) {
+Shape read_shape(const Field& node, const Kind& kind, const Coordinates& coordinates) {
     if (kind.name == "patch") return read_patch(node, kind, coordinates);
     if (kind.name == "box") return read_box(node, kind, coordinates);
     if (kind.name == "sphere")

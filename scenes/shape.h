@@ -14,7 +14,7 @@ using Shape = std::variant<Quad, Patch, Box, Sphere, Cylinder, Lathe, Torus, Rip
 
 /// An object of one of shape_kinds() other than mesh and instances, or a rectangle or sphere light, which has
 /// the keys of a quad without division or of a sphere. Refuses what is wrong in it.
-Shape read_shape(const Node& node, const Kind& kind, const Coordinates& coordinates);
+Shape read_shape(const Field& node, const Kind& kind, const Coordinates& coordinates);
 
 std::uint64_t triangle_count(const Shape& shape);
 Surface tessellate(const Shape& shape);

@@ -185,4 +185,9 @@ std::array<double, 3> Field::numbers(double low, double high, std::string_view e
             three[2].number(low, high, expected)};
 }
 
+Vec3 Field::triple(double low, double high, std::string_view expected) const {
+    const auto [x, y, z] = numbers(low, high, expected);
+    return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+}
+
 }  // namespace regather::trace

@@ -9,10 +9,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "trace/json.h"
+#include "trace/vec.h"
 
 namespace regather::trace {
 
@@ -64,11 +66,12 @@ public:
     double number(double low, double high, std::string_view expected, Ends ends = Ends::closed) const;
     /// low <= x <= high, exact to 64 bits; 4.0 and 4e3 are whole, too.
     template <std::unsigned_integral T = std::uint32_t>
-    T whole(T low, T high, std::string_view expected = "") const {
+    T whole(std::type_identity_t<T> low, std::type_identity_t<T> high, std::string_view expected = "") const {
         return static_cast<T>(whole_64(low, high, expected));
     }
     bool truth(std::string_view expected = "true or false") const;
     std::array<double, 3> numbers(double low, double high, std::string_view expected) const;
+    Vec3 triple(double low, double high, std::string_view expected) const;  ///< numbers(), rounded to floats.
 
 private:
     friend class Document;

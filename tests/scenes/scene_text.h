@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <string>
 #include <string_view>
 
@@ -29,12 +30,13 @@ inline Scene parse(const std::string& text) {
     return parse_scene(text, "t.json", {});
 }
 
-/// The message of the DataError that the text is refused with; "" when it is not.
+/// The message of the DataError that the text is refused with, less the line of a value, which is where
+/// SceneText happens to place it; "" when it is not.
 inline std::string refusal(const std::string& text, const std::filesystem::path& directory = {}) {
     try {
         parse_scene(text, "t.json", directory);
     } catch (const trace::DataError& error) {
-        return error.what();
+        return std::regex_replace(error.what(), std::regex(R"(: line \d+, (?!column))"), ": ");
     }
     return "";
 }

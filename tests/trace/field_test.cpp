@@ -59,7 +59,7 @@ TEST(Field, KindsAreToldApartByAKey) {
 }
 
 TEST(Field, ValuesAreReadByTypeAndRange) {
-    const auto whole = [](const Field& root) { root["n"].whole(2u, 9u); };
+    const auto whole = [](const Field& root) { root["n"].whole(2, 9); };
     for (const char* const good : {"2", "9", "4.0", "9e0"})
         EXPECT_EQ(refusal(std::string("{\"n\": ") + good + "}", whole), "nothing was refused") << good;
     for (const char* const bad :
