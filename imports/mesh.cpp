@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "imports/homes/furniture.h"
+#include "imports/model.h"
 #include "imports/orbit.h"
 #include "meshes/mesh.h"
 #include "trace/error.h"
@@ -38,9 +38,9 @@ ImportedScene import_mesh(const std::filesystem::path& file, const MeshImportOpt
         throw DataError(fmt::format("{}: found an extent of {}, expected an object of some size",
                                     file.string(), largest));
 
-    FurnitureModel model;
+    Model model;
     for (std::uint32_t m = 0; m < mesh.materials.size(); ++m) {
-        FurnitureModel::Part part{mesh.materials[m], {}};
+        Model::Part part{mesh.materials[m], {}};
         part.surface = triangles_with(mesh.surface, mesh.triangle_material, m);
         if (!part.surface.triangles.empty()) model.parts.push_back(std::move(part));
     }

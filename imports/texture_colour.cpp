@@ -9,12 +9,12 @@
 #include <cmath>
 #include <vector>
 
-#include "scenes/document.h"
 #include "trace/error.h"
+#include "trace/text.h"
 
 namespace regather::imports {
 
-using scenes::in_quotes;
+using trace::in_quotes;
 
 namespace {
 

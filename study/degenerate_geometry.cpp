@@ -81,7 +81,7 @@ scenes::Scene with_slivers() {
     return room.scene;
 }
 
-scenes::Scene with_camera(const Double3& from, const Double3& at, double fov_degrees) {
+scenes::Scene with_camera(Vec3d from, Vec3d at, double fov_degrees) {
     Room room = furnished_room();
     room.look(from, at, fov_degrees);
     return room.scene;
@@ -149,7 +149,7 @@ std::vector<Case> degenerate_geometry_cases() {
                                        [] { return furnished_room({}, 1e-6).scene; }));
     struct View {
         const char* name;
-        Double3 from, at;
+        Vec3d from, at;
         double fov;
     };
     for (const View& view : {View{"camera on a wall", {0.45, 0, 0.5}, {0.5, 0.9, 0.45}, 65},

@@ -20,13 +20,13 @@ HalfVectorLobe::HalfVectorLobe(float exponent, double degrees) : exponent_(expon
 HalfVectorLobe::Sample HalfVectorLobe::at(double u, double v) const {
     const double below_one = -std::expm1(std::log(u) / (exponent_ + 1));
     const double sine = std::sqrt(below_one * (2 - below_one)), phi = 2 * std::numbers::pi * v;
-    const std::array<double, 3> half{sine * std::cos(phi), sine * std::sin(phi), 1 - below_one};
+    const trace::Vec3d half{sine * std::cos(phi), sine * std::sin(phi), 1 - below_one};
     const double length2 =
         double{incoming_.x} * incoming_.x + double{incoming_.z} * incoming_.z;  // not 1: rounded to float
-    const double along = (incoming_.x * half[0] + incoming_.z * half[2]) / std::sqrt(length2);
+    const double along = (incoming_.x * half.x + incoming_.z * half.z) / std::sqrt(length2);
     const double unit = 1 / std::sqrt(length2);
-    return {{2 * along * half[0] - incoming_.x * unit, 2 * along * half[1],
-             2 * along * half[2] - incoming_.z * unit},
+    return {{2 * along * half.x - incoming_.x * unit, 2 * along * half.y,
+             2 * along * half.z - incoming_.z * unit},
             along,
             std::pow(u, exponent_ / (exponent_ + 1))};
 }

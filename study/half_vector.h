@@ -2,10 +2,10 @@
 // find evenly: u = cos^(exponent + 1) of the angle between half vector and normal, v = azimuth / 2 pi. The
 // normal is (0, 0, 1).
 #pragma once
-#include <array>
 #include <utility>
 
 #include "capture/bsdf.h"
+#include "trace/vec3d.h"
 
 namespace regather::study {
 
@@ -18,7 +18,7 @@ public:
     trace::Vec3 incoming() const { return incoming_; }
 
     struct Sample {
-        std::array<double, 3> direction;
+        trace::Vec3d direction;
         double along;  ///< incoming . half
         double power;  ///< (n . half)^exponent
     };

@@ -81,10 +81,10 @@ scenes::Scene closed(bool turned, double angle, const Placement& placement = {})
     Room room(placement);
     const std::uint32_t wall = room.diffuse(0.5);
     const double c = std::cos(0.7), s = std::sin(0.7);
-    const auto turn = [&](const Double3& p) {
+    const auto turn = [&](Vec3d p) {
         if (!turned) return p;
         const double x = c * p[0] - s * p[1], y = s * p[0] + c * p[1];
-        return Double3{x, c * y - s * p[2], s * y + c * p[2]};
+        return Vec3d{x, c * y - s * p[2], s * y + c * p[2]};
     };
     if (angle == 90) {
         Room straight;
@@ -99,8 +99,8 @@ scenes::Scene closed(bool turned, double angle, const Placement& placement = {})
         return room.scene;
     }
     const double rise = std::tan(angle * std::numbers::pi / 180);
-    const Double3 a = turn({0, 0, 0}), b = turn({1, 0, 0}), e = turn({1, rise, 0});
-    const Double3 A = turn({0, 0, 1}), B = turn({1, 0, 1}), E = turn({1, rise, 1});
+    const Vec3d a = turn({0, 0, 0}), b = turn({1, 0, 0}), e = turn({1, rise, 0});
+    const Vec3d A = turn({0, 0, 1}), B = turn({1, 0, 1}), E = turn({1, rise, 1});
     room.triangle(a, b, e, wall);
     room.triangle(A, E, B, wall);
     room.triangle(a, A, B, wall);

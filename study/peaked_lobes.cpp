@@ -18,10 +18,6 @@ using capture::Material, capture::Sampler, trace::Vec3;
 
 constexpr double degree = std::numbers::pi / 180;
 
-Vec3 rounded(const std::array<double, 3>& v) {
-    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
-
 /// Integral over the half vectors of `integrand`(direction, direction as floats) x solid angle; of
 /// `chance_of_none` the share without a direction.
 template <class Integrand>
@@ -36,7 +32,7 @@ double over_lobe(const HalfVectorLobe& lobe, float exponent, Effort effort, cons
             // changes fast.
             const double s = (i + 0.5) / rows, u = s * s, width = 2 * s / rows / columns;
             const auto sample = lobe.at(u, (j + 0.5) / columns);
-            if (!(sample.along > 0) || !(sample.direction[2] > 0)) {
+            if (!(sample.along > 0) || !(sample.direction.z > 0)) {
                 misses[static_cast<std::size_t>(i)] += width;
                 continue;
             }
@@ -44,7 +40,7 @@ double over_lobe(const HalfVectorLobe& lobe, float exponent, Effort effort, cons
             const double solid_angle =
                 4 * sample.along * 2 * std::numbers::pi / ((double{exponent} + 1) * sample.power);
             sums[static_cast<std::size_t>(i)] +=
-                integrand(sample.direction, rounded(sample.direction)) * solid_angle * width;
+                integrand(sample.direction, to_float(sample.direction)) * solid_angle * width;
         }
     });
     double sum = 0;
@@ -86,12 +82,12 @@ Case weight_mean(float exponent, double degrees) {
                                     (8 * std::numbers::pi * (std::exp2(-0.5 * exponent) + exponent));
                 const double albedo = over_lobe(
                     lobe, exponent, effort,
-                    [&](const std::array<double, 3>& direction, Vec3) {
-                        const double x = double{lobe.incoming().x} + direction[0], y = direction[1],
-                                     z = double{lobe.incoming().z} + direction[2];
+                    [&](trace::Vec3d direction, Vec3) {
+                        const double x = double{lobe.incoming().x} + direction.x, y = direction.y,
+                                     z = double{lobe.incoming().z} + direction.z;
                         const double sine2 = (x * x + y * y) / (x * x + y * y + z * z);
                         return norm * std::exp(0.5 * exponent * std::log1p(-std::min(sine2, 1.0))) *
-                               direction[2];
+                               direction.z;
                     },
                     none);
                 const int samples = effort == Effort::quick ? 40'000 : 1'000'000;

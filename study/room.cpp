@@ -3,23 +3,13 @@
 #include <fmt/format.h>
 
 namespace regather::study {
-namespace {
 
-Double3 sum(const Double3& a, const Double3& b) {
-    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+trace::Vec3 Room::point(Vec3d p) const {
+    return to_float(placement_.scale * p + placement_.shift);
 }
 
-}  // namespace
-
-trace::Vec3 Room::point(const Double3& p) const {
-    return {static_cast<float>(placement_.scale * p[0] + placement_.shift[0]),
-            static_cast<float>(placement_.scale * p[1] + placement_.shift[1]),
-            static_cast<float>(placement_.scale * p[2] + placement_.shift[2])};
-}
-
-trace::Vec3 Room::edge(const Double3& e) const {
-    return {static_cast<float>(placement_.scale * e[0]), static_cast<float>(placement_.scale * e[1]),
-            static_cast<float>(placement_.scale * e[2])};
+trace::Vec3 Room::edge(Vec3d e) const {
+    return to_float(placement_.scale * e);
 }
 
 std::uint32_t Room::add(const scenes::Material& material) {
@@ -35,22 +25,21 @@ std::uint32_t Room::diffuse(double albedo) {
     return add(material);
 }
 
-void Room::triangle(const Double3& a, const Double3& b, const Double3& c, std::uint32_t material) {
+void Room::triangle(Vec3d a, Vec3d b, Vec3d c, std::uint32_t material) {
     const auto first = static_cast<std::uint32_t>(scene.vertices.size());
-    for (const Double3& corner : {a, b, c}) scene.vertices.push_back(point(corner));
+    for (const Vec3d corner : {a, b, c}) scene.vertices.push_back(point(corner));
     scene.triangles.push_back({first, first + 1, first + 2});
     scene.triangle_material.push_back(material);
     scene.triangle_light.push_back(-1);
 }
 
-void Room::quad(const Double3& corner, const Double3& u, const Double3& v, std::uint32_t material) {
-    const Double3 far = sum(sum(corner, u), v);
-    triangle(corner, sum(corner, u), far, material);
-    triangle(corner, far, sum(corner, v), material);
+void Room::quad(Vec3d corner, Vec3d u, Vec3d v, std::uint32_t material) {
+    const Vec3d far = corner + u + v;
+    triangle(corner, corner + u, far, material);
+    triangle(corner, far, corner + v, material);
 }
 
-void Room::light(const Double3& corner, const Double3& u, const Double3& v, double radiance,
-                 std::uint32_t material) {
+void Room::light(Vec3d corner, Vec3d u, Vec3d v, double radiance, std::uint32_t material) {
     quad(corner, u, v, material);
     const std::size_t count = scene.triangle_light.size();
     for (std::size_t t = count - 2; t < count; ++t)
@@ -64,28 +53,28 @@ void Room::light(const Double3& corner, const Double3& u, const Double3& v, doub
     scene.lights.push_back(light);
 }
 
-void Room::box(const Double3& low, const Double3& high, std::uint32_t material, bool inwards) {
-    const Double3 x{high[0] - low[0], 0, 0}, y{0, high[1] - low[1], 0}, z{0, 0, high[2] - low[2]};
-    const auto face = [&](const Double3& corner, const Double3& u, const Double3& v) {
+void Room::box(Vec3d low, Vec3d high, std::uint32_t material, bool inwards) {
+    const Vec3d x{high.x - low.x, 0, 0}, y{0, high.y - low.y, 0}, z{0, 0, high.z - low.z};
+    const auto face = [&](Vec3d corner, Vec3d u, Vec3d v) {
         inwards ? quad(corner, u, v, material) : quad(corner, v, u, material);
     };
     face(low, x, y);
-    face({low[0], low[1], high[2]}, y, x);
+    face({low.x, low.y, high.z}, y, x);
     face(low, z, x);
-    face({low[0], high[1], low[2]}, x, z);
+    face({low.x, high.y, low.z}, x, z);
     face(low, y, z);
-    face({high[0], low[1], low[2]}, z, y);
+    face({high.x, low.y, low.z}, z, y);
 }
 
-void Room::walls(const Double3& low, const Double3& high, std::uint32_t material) {
+void Room::walls(Vec3d low, Vec3d high, std::uint32_t material) {
     box(low, high, material, true);
 }
 
-void Room::block(const Double3& low, const Double3& high, std::uint32_t material) {
+void Room::block(Vec3d low, Vec3d high, std::uint32_t material) {
     box(low, high, material, false);
 }
 
-void Room::look(const Double3& from, const Double3& at, double fov_degrees) {
+void Room::look(Vec3d from, Vec3d at, double fov_degrees) {
     scene.camera.position = point(from);
     scene.camera.target = point(at);
     scene.camera.vertical_fov_degrees = static_cast<float>(fov_degrees);
@@ -110,7 +99,7 @@ Room furnace(double albedo) {
     Room room;
     room.scene.name = "furnace";
     const std::uint32_t wall = room.diffuse(albedo);
-    const Double3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+    const Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
     room.light({0, 0, 0}, x, y, 1, wall);
     room.light({0, 0, 1}, y, x, 1, wall);
     room.light({0, 0, 0}, z, x, 1, wall);

@@ -1,19 +1,19 @@
 // study/room.h -- scenes that are put together in memory, corner by corner in double precision, at any scale
 // and place, with faults that no loader would let through.
 #pragma once
-#include <array>
 #include <cstdint>
 
 #include "scenes/scene.h"
+#include "trace/vec3d.h"
 
 namespace regather::study {
 
-using Double3 = std::array<double, 3>;
+using trace::Vec3d;
 
 /// p -> scale p + shift, rounded to float at the very end.
 struct Placement {
     double scale = 1;
-    Double3 shift{};
+    Vec3d shift;
 };
 
 class Room {
@@ -22,24 +22,23 @@ public:
 
     std::uint32_t diffuse(double albedo);  ///< A material's index.
     std::uint32_t add(const scenes::Material& material);
-    void triangle(const Double3& a, const Double3& b, const Double3& c, std::uint32_t material);
+    void triangle(Vec3d a, Vec3d b, Vec3d c, std::uint32_t material);
     /// Faces along cross(u, v).
-    void quad(const Double3& corner, const Double3& u, const Double3& v, std::uint32_t material);
+    void quad(Vec3d corner, Vec3d u, Vec3d v, std::uint32_t material);
     /// A rectangle that emits along cross(u, v) and reflects as `material` says.
-    void light(const Double3& corner, const Double3& u, const Double3& v, double radiance,
-               std::uint32_t material);
+    void light(Vec3d corner, Vec3d u, Vec3d v, double radiance, std::uint32_t material);
     /// Six walls that face inwards.
-    void walls(const Double3& low, const Double3& high, std::uint32_t material);
+    void walls(Vec3d low, Vec3d high, std::uint32_t material);
     /// A solid block.
-    void block(const Double3& low, const Double3& high, std::uint32_t material);
-    void look(const Double3& from, const Double3& at, double fov_degrees);
+    void block(Vec3d low, Vec3d high, std::uint32_t material);
+    void look(Vec3d from, Vec3d at, double fov_degrees);
 
     scenes::Scene scene;
 
 private:
-    trace::Vec3 point(const Double3& p) const;
-    trace::Vec3 edge(const Double3& e) const;
-    void box(const Double3& low, const Double3& high, std::uint32_t material, bool inwards);
+    trace::Vec3 point(Vec3d p) const;
+    trace::Vec3 edge(Vec3d e) const;
+    void box(Vec3d low, Vec3d high, std::uint32_t material, bool inwards);
     Placement placement_;
 };
 

@@ -72,11 +72,9 @@ std::vector<Vec3> query_points(std::size_t count, const Placement& placement) {
     std::vector<Vec3> points;
     capture::Sampler sampler(3, capture::Stream::gather, 7);
     for (std::size_t i = 0; i < count; ++i) {
-        Double3 p{sampler.fine_uniform(), sampler.fine_uniform(), sampler.fine_uniform()};
-        p[sampler.below(3)] = 0;  // on three walls
-        points.push_back({static_cast<float>(placement.scale * p[0] + placement.shift[0]),
-                          static_cast<float>(placement.scale * p[1] + placement.shift[1]),
-                          static_cast<float>(placement.scale * p[2] + placement.shift[2])});
+        Vec3d p{sampler.fine_uniform(), sampler.fine_uniform(), sampler.fine_uniform()};
+        p[static_cast<int>(sampler.below(3))] = 0;  // on three walls
+        points.push_back(to_float(placement.scale * p + placement.shift));
     }
     return points;
 }

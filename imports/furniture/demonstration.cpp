@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "imports/archived_model.h"
 #include "imports/furniture/furniture_catalogue.h"
-#include "imports/homes/furniture.h"
 #include "imports/orbit.h"
 #include "meshes/weld.h"
 #include "trace/error.h"
@@ -129,9 +129,8 @@ ImportedScene import_furniture(std::span<const fs::path> files) {
                                         files.empty() ? "furniture" : files.front().string(), item.model,
                                         catalogues.size()));
         const std::string model(item.model);
-        std::vector<FurnitureModel::Part> parts =
-            placed(read_furniture(found->zip(), model), placement_of(item));
-        for (FurnitureModel::Part& part : parts) {
+        std::vector<Model::Part> parts = placed(read_model(found->zip(), model), placement_of(item));
+        for (Model::Part& part : parts) {
             if (part.material.name == item.glass)
                 part.material = {.name = part.material.name, .kind = MaterialKind::dielectric, .diffuse = {}};
             if (item.cell > 0) part.surface = simplified(part.surface, item.cell);

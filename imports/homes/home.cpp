@@ -6,13 +6,13 @@
 #include <cmath>
 #include <pugixml.hpp>
 
-#include "scenes/document.h"
 #include "trace/error.h"
+#include "trace/text.h"
 
 namespace regather::imports {
 
-using scenes::in_quotes;
 using trace::DataError;
+using trace::in_quotes;
 
 namespace {
 

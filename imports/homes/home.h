@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "imports/material_table.h"
+
 namespace regather::imports {
 
 /// What a home may have, and how long, far or high anything in it may be [cm]. More is refused.
@@ -21,8 +23,6 @@ struct PlanPoint {
     double x = 0, y = 0;
     friend bool operator==(PlanPoint, PlanPoint) = default;
 };
-
-using Rgb8 = std::array<std::uint8_t, 3>;  ///< sRGB, red first.
 
 struct HomeLevel {
     std::string id;

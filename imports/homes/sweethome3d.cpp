@@ -8,18 +8,18 @@
 #include <numbers>
 
 #include "imports/archive.h"
-#include "imports/homes/furniture.h"
+#include "imports/archived_model.h"
 #include "imports/homes/home.h"
 #include "imports/homes/polygon.h"
 #include "imports/homes/wall.h"
-#include "scenes/document.h"
 #include "trace/error.h"
+#include "trace/text.h"
 #include "trace/word.h"
 
 namespace regather::imports {
 
-using scenes::in_quotes;
 using trace::DataError;
+using trace::in_quotes;
 using trace::UsageError;
 
 namespace {
@@ -213,23 +213,23 @@ private:
         }
     }
 
-    const FurnitureModel& model_of(const HomePiece& piece) {
+    const Model& model_of(const HomePiece& piece) {
         const auto found = models_.find(piece.model);
         if (found != models_.end()) return found->second;
-        return models_.emplace(piece.model, read_furniture(zip_, piece.model)).first->second;
+        return models_.emplace(piece.model, read_model(zip_, piece.model)).first->second;
     }
 
     void add_piece(const HomePiece& piece, std::size_t index) {
         if (!piece.visible || !is_shown(piece.level)) return;
-        const FurnitureModel& model = model_of(piece);
+        const Model& model = model_of(piece);
         triangles_ += model.triangles();
         if (triangles_ > most_piece_triangles)
             fail(fmt::format("piece[{}] {}", index, in_quotes(piece.name)),
                  fmt::format("{} triangles so far", triangles_),
                  fmt::format("at most {} in all furniture", most_piece_triangles));
         const Placement placement = placement_of(piece);
-        std::vector<FurnitureModel::Part> parts = placed(model, placement);
-        for (FurnitureModel::Part& part : parts) paint(part.material, piece);
+        std::vector<Model::Part> parts = placed(model, placement);
+        for (Model::Part& part : parts) paint(part.material, piece);
         add_parts(std::move(parts), table_, scene_);
         if (piece.power > 0)
             for (const HomeLightSource& source : piece.light_sources) add_light(piece, source);
@@ -353,7 +353,7 @@ private:
     Home home_;
     ImportedScene scene_;
     MaterialTable table_;
-    std::map<std::string, FurnitureModel> models_;
+    std::map<std::string, Model> models_;
     std::uint64_t triangles_ = 0;
 };
 

@@ -18,13 +18,13 @@
 #include "imports/maps/shader_script.h"
 #include "imports/maps/tour.h"
 #include "imports/texture_colour.h"
-#include "scenes/document.h"
 #include "trace/error.h"
+#include "trace/text.h"
 #include "trace/word.h"
 
 namespace regather::imports {
 
-using scenes::in_quotes;
+using trace::in_quotes;
 
 namespace {
 

@@ -3,29 +3,13 @@
 #include <array>
 #include <cmath>
 
+#include "trace/vec3d.h"
+
 namespace regather::imports {
 
+using trace::Vec3d;
+
 namespace {
-
-struct Double3 {
-    double x = 0, y = 0, z = 0;
-};
-
-Double3 operator+(Double3 a, Double3 b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-Double3 operator*(double s, Double3 a) {
-    return {s * a.x, s * a.y, s * a.z};
-}
-double dot(Double3 a, Double3 b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-Double3 cross(Double3 a, Double3 b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-Double3 wide(Vec3 a) {
-    return {a.x, a.y, a.z};
-}
 
 // Weights of the three control points after i of n steps, times n^2 (values) or n / 2 (slopes): whole
 // numbers, so that sums of floats are exact in double but for control points of very different size.
@@ -38,7 +22,7 @@ Weights slope_weights(double i, double n) {
 }
 
 // Outer points first: the same sum from either end.
-Double3 sum(const Weights& w, const std::array<Double3, 3>& p) {
+Vec3d sum(const Weights& w, const std::array<Vec3d, 3>& p) {
     return (w[0] * p[0] + w[2] * p[2]) + w[1] * p[1];
 }
 
@@ -52,30 +36,28 @@ Place place(std::uint32_t vertex, std::uint32_t subdivision, std::uint32_t size)
     return {2 * patch, static_cast<double>(vertex - patch * subdivision)};
 }
 
-Double3 blend(const std::vector<Vec3>& points, std::uint32_t width, Place column, Place row,
-              const Weights& across, const Weights& along) {
-    std::array<Double3, 3> rows;
+Vec3d blend(const std::vector<Vec3>& points, std::uint32_t width, Place column, Place row,
+            const Weights& across, const Weights& along) {
+    std::array<Vec3d, 3> rows;
     for (std::uint32_t j = 0; j < 3; ++j) {
         const Vec3* p = &points[(row.first + j) * width + column.first];
-        rows[j] = sum(across, {wide(p[0]), wide(p[1]), wide(p[2])});
+        rows[j] = sum(across, {p[0], p[1], p[2]});
     }
     return sum(along, rows);
 }
 
 // The normal of the surface where its slopes span a plane; inside a collapsed edge they do not, a little
 // further in they do.
-Double3 surface_normal(const ControlNet& net, Place column, Place row, double n) {
+Vec3d surface_normal(const ControlNet& net, Place column, Place row, double n) {
     const auto normal_at = [&](double i, double j) {
-        const Double3 du =
-            blend(net.points, net.width, column, row, slope_weights(i, n), value_weights(j, n));
-        const Double3 dv =
-            blend(net.points, net.width, column, row, value_weights(i, n), slope_weights(j, n));
+        const Vec3d du = blend(net.points, net.width, column, row, slope_weights(i, n), value_weights(j, n));
+        const Vec3d dv = blend(net.points, net.width, column, row, value_weights(i, n), slope_weights(j, n));
         const double sizes = std::sqrt(dot(du, du) * dot(dv, dv));
-        const Double3 normal = cross(du, dv);
-        const double length = std::sqrt(dot(normal, normal));
-        return length > 1e-6 * sizes && length > 0 ? (1 / length) * normal : Double3{};
+        const Vec3d normal = cross(du, dv);
+        const double size = length(normal);
+        return size > 1e-6 * sizes && size > 0 ? (1 / size) * normal : Vec3d{};
     };
-    const Double3 normal = normal_at(column.step, row.step);
+    const Vec3d normal = normal_at(column.step, row.step);
     if (dot(normal, normal) > 0) return normal;
     const auto inward = [&](double step) { return step + 0.01 * (0.5 * n - step); };
     return normal_at(inward(column.step), inward(row.step));
@@ -93,24 +75,21 @@ Surface tessellate(const ControlNet& net, std::uint32_t subdivision) {
     const std::uint32_t columns = (net.width - 1) / 2 * subdivision + 1,
                         rows = (net.height - 1) / 2 * subdivision + 1;
     Surface surface;
-    std::vector<Double3> normals;
+    std::vector<Vec3d> normals;
     double agreement = 0;
     for (std::uint32_t v = 0; v < rows; ++v) {
         for (std::uint32_t u = 0; u < columns; ++u) {
             const Place column = place(u, subdivision, net.width), row = place(v, subdivision, net.height);
             const Weights across = value_weights(column.step, n), along = value_weights(row.step, n);
-            const Double3 p = blend(net.points, net.width, column, row, across, along);
+            const Vec3d p = blend(net.points, net.width, column, row, across, along);
             const double scale = n * n * n * n;
-            surface.vertices.push_back({static_cast<float>(p.x / scale), static_cast<float>(p.y / scale),
-                                        static_cast<float>(p.z / scale)});
+            surface.vertices.push_back(to_float(Vec3d{p.x / scale, p.y / scale, p.z / scale}));
             normals.push_back(surface_normal(net, column, row, n));
             agreement += dot(normals.back(), blend(net.normals, net.width, column, row, across, along));
         }
     }
     const double side = agreement < 0 ? -1 : 1;
-    for (const Double3& normal : normals)
-        surface.normals.push_back({static_cast<float>(side * normal.x), static_cast<float>(side * normal.y),
-                                   static_cast<float>(side * normal.z)});
+    for (const Vec3d& normal : normals) surface.normals.push_back(to_float(side * normal));
     for (std::uint32_t v = 0; v + 1 < rows; ++v) {
         for (std::uint32_t u = 0; u + 1 < columns; ++u) {
             const std::uint32_t a = v * columns + u, b = a + 1, c = b + columns, d = a + columns;

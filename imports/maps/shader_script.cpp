@@ -6,12 +6,12 @@
 #include <charconv>
 #include <cmath>
 
-#include "scenes/document.h"
 #include "trace/error.h"
+#include "trace/text.h"
 
 namespace regather::imports {
 
-using scenes::in_quotes;
+using trace::in_quotes;
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "imports/homes/furniture.h"
+#include "imports/archived_model.h"
 #include "meshes/weld.h"
 #include "tests/imports/archive.h"
 #include "tests/scratch.h"

@@ -1,4 +1,4 @@
-#include "imports/homes/java3d_materials.h"
+#include "imports/java3d_materials.h"
 
 #include <array>
 

@@ -1,4 +1,4 @@
-// imports/homes/java3d_materials.h -- the materials that OBJ models of Java 3D programs may name without a
+// imports/java3d_materials.h -- the materials that OBJ models of Java 3D programs may name without a
 // library of their own: the table of Java 3D's OBJ loader (DefaultMaterials), which Sweet Home 3D's models
 // rely on.
 #pragma once
