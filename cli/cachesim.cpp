@@ -48,7 +48,7 @@ std::vector<std::string_view> split(std::string_view list) {
 }
 
 std::uint32_t parse_line(std::string_view text) {
-    const std::uint64_t bytes = parse_size(text);
+    const std::uint64_t bytes = trace::parse_size(text);
     if (bytes > std::numeric_limits<std::uint32_t>::max())
         throw trace::UsageError(fmt::format("--line: found {}, expected less than 4G", text));
     return static_cast<std::uint32_t>(bytes);
@@ -75,7 +75,7 @@ std::vector<cachesim::PolicyConfig> combinations(const Options& options) {
         for (const std::string_view line : split(options.lines))
             for (const std::string_view ways : split(options.ways))
                 for (const std::string_view policy : split(options.policies)) {
-                    configs.push_back({{parse_size(size), parse_line(line), parse_ways(ways)},
+                    configs.push_back({{trace::parse_size(size), parse_line(line), parse_ways(ways)},
                                        cachesim::parse_policy(policy),
                                        cachesim::parse_write_policy(options.write),
                                        cachesim::parse_write_miss(options.write_miss),

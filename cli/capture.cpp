@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/progress.h"
 #include "experiment/capture_job.h"
 #include "experiment/capture_options.h"
 
@@ -15,7 +16,7 @@ void add_capture(CLI::App& app) {
     struct Options {
         std::string scene, image;
         std::filesystem::path folder;
-        CaptureOptions capture;
+        experiment::CaptureOptions capture;
         bool force = false;
     };
     auto options = std::make_shared<Options>();
@@ -30,8 +31,13 @@ void add_capture(CLI::App& app) {
         "  regather capture room -o out/room --width 128 --height 128 --photons 100000\n"
         "  regather capture my_scene.json -o out/mine --k 50 --radius 0.3");
     command->callback([options] {
-        const CaptureJob job{options->scene, options->capture, {}, options->folder, options->force};
-        const CaptureResult result = run(job);
+        const experiment::CaptureJob job{
+            options->scene, options->capture, {}, options->folder, options->force};
+        experiment::CaptureResult result;
+        {
+            Progress progress;
+            result = experiment::run(job, progress.listener());
+        }
         fmt::print("{}", result.report);
     });
 }

@@ -29,12 +29,12 @@ void run(const Options& options) {
     for (const std::filesystem::path& file : {exr, png})
         if (!options.force && std::filesystem::exists(file))
             throw trace::UsageError(fmt::format("{}: exists; --force overwrites it", file.string()));
-    const std::vector<cachesim::CacheConfig> caches = parse_caches(options.cache);
+    const std::vector<cachesim::CacheConfig> caches = experiment::parse_caches(options.cache);
     if (caches.size() != 1)
         throw trace::UsageError(fmt::format("--cache: found {}, expected one cache", options.cache));
-    auto [orderings, reads] = parse_orderings(options.orders);
+    auto [orderings, reads] = experiment::parse_orderings(options.orders);
     trace::TraceReader trace(options.trace);
-    const Measurement measurement(trace, reads, reorder::default_onchip_bytes);
+    const experiment::Measurement measurement(trace, reads, reorder::default_onchip_bytes);
     const trace::TraceInfo& info = trace.info();
     const auto query_pixel = trace.column<std::uint32_t>("query_pixel");
     std::vector<charts::HeatMap> maps;

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "experiment/progress.h"
+
 namespace regather::cli {
 
 class Progress {
@@ -19,6 +21,11 @@ public:
 
     /// From any thread. A change of `stage` starts the clock again; `unit` is what is counted ("pixels").
     void update(std::string_view stage, std::string_view unit, std::uint64_t done, std::uint64_t total);
+    /// update(), for as long as this lives.
+    experiment::ProgressListener listener() {
+        return [this](std::string_view stage, std::string_view unit, std::uint64_t done,
+                      std::uint64_t total) { update(stage, unit, done, total); };
+    }
 
 private:
     using Clock = std::chrono::steady_clock;

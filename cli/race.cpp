@@ -10,8 +10,8 @@
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "cli/version.h"
-#include "experiment/contest.h"
 #include "experiment/measurement.h"
+#include "experiment/race.h"
 #include "results/provenance.h"
 #include "spatial/photon_kd.h"
 #include "trace/error.h"
@@ -34,10 +34,10 @@ struct Options {
     bool gathered = false, force = false;
 };
 
-std::vector<Structure> parse_structures(const std::vector<std::string>& words) {
-    std::vector<Structure> parsed;
+std::vector<experiment::Structure> parse_structures(const std::vector<std::string>& words) {
+    std::vector<experiment::Structure> parsed;
     for (const std::string& word : words) {
-        const std::optional<Structure> structure = structure_named(word);
+        const std::optional<experiment::Structure> structure = experiment::structure_named(word);
         if (!structure)
             throw trace::UsageError(
                 fmt::format("--structure: found '{}', expected left-balanced or bucketed", word));
@@ -78,9 +78,9 @@ std::string quoted(const std::string& cell) {
 struct Result {
     const trace::TraceInfo& info;
     const std::vector<reorder::ParsedOrdering>& orderings;
-    const ContestConfig& config;
+    const experiment::RaceConfig& config;
     std::uint64_t queries;
-    Contest contest;
+    experiment::Race race;
 };
 
 std::string csv_text(const Result& result) {
@@ -88,7 +88,7 @@ std::string csv_text(const Result& result) {
     const auto number = [](const std::optional<std::uint32_t>& value) {
         return value ? fmt::to_string(*value) : "";
     };
-    for (const Standing& standing : result.contest.standings) {
+    for (const experiment::Standing& standing : result.race.standings) {
         const reorder::OrderingSpec& spec = result.orderings[standing.ordering].spec;
         csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n",
                            quoted(result.info.scene), name(standing.structure), quoted(spec.name),
@@ -111,18 +111,18 @@ std::string table_text(const Result& result) {
                     result.config.threads, result.config.threads == 1 ? "" : "s", result.config.repeats);
     std::string names = fmt::format("{:<32} {:>9}", "", ""),
                 header = fmt::format("{:<32} {:>9}", "ordering", "order us");
-    for (const Structure structure : result.config.structures) {
+    for (const experiment::Structure structure : result.config.structures) {
         names += fmt::format(" | {:<28}", name(structure));
         header += fmt::format(" | {:>9} {:>7} {:>10}", "search us", "+- mad", "net gain s");
     }
     out += names + "\n" + header + "\n";
     const std::size_t kinds = result.config.structures.size();
-    for (std::size_t i = 0; i < result.contest.standings.size(); i += kinds) {
-        const Standing& first = result.contest.standings[i];
+    for (std::size_t i = 0; i < result.race.standings.size(); i += kinds) {
+        const experiment::Standing& first = result.race.standings[i];
         out += fmt::format("{:<32} {:>9.3f}", result.orderings[first.ordering].spec.text,
                            per_query(first.order.median));
         for (std::size_t s = 0; s < kinds; ++s) {
-            const Standing& standing = result.contest.standings[i + s];
+            const experiment::Standing& standing = result.race.standings[i + s];
             out += fmt::format(" | {:>9.3f} {:>7.3f} {:>10.3f}", per_query(standing.search.median),
                                per_query(standing.search.mad), standing.net_gain);
         }
@@ -133,7 +133,7 @@ std::string table_text(const Result& result) {
 
 void race(const Options& options) {
     if (!options.csv.empty()) results::refuse_to_overwrite(options.csv, options.force);
-    auto [orderings, reads] = parse_orderings(options.orders);
+    auto [orderings, reads] = experiment::parse_orderings(options.orders);
     const auto is_naive = [](const reorder::ParsedOrdering& ordering) {
         return ordering.spec.text == "naive";
     };
@@ -142,7 +142,7 @@ void race(const Options& options) {
     const auto baseline = static_cast<std::size_t>(
         std::find_if(orderings.begin(), orderings.end(), is_naive) - orderings.begin());
 
-    ContestConfig config;
+    experiment::RaceConfig config;
     config.structures = parse_structures(options.structures);
     config.repeats = options.repeats;
     config.threads = options.threads;
@@ -163,16 +163,16 @@ void race(const Options& options) {
     Result result{info, orderings, config, work.position.size(), {}};
     {
         Progress progress;
-        result.contest =
-            contest(heap, work, orderings, baseline, config, [&](std::uint64_t done, std::uint64_t total) {
-                progress.update("racing", "queries", done, total);
-            });
+        result.race = experiment::race(heap, work, orderings, baseline, config,
+                                       [&](std::uint64_t done, std::uint64_t total) {
+                                           progress.update("racing", "queries", done, total);
+                                       });
     }
     if (config.k == info.k && result.queries == info.queries &&
-        result.contest.found_photons != info.found_photons)
+        result.race.found_photons != info.found_photons)
         throw std::runtime_error(fmt::format("{}: found_photons: found {}, the searches find {}",
                                              (trace.folder() / "trace.json").string(), info.found_photons,
-                                             result.contest.found_photons));
+                                             result.race.found_photons));
     if (!options.csv.empty()) {
         trace::write_whole(options.csv, csv_text(result));
         results::write_provenance(options.csv, {command_line(), version(), git_revision(), trace.checksum()},

@@ -23,7 +23,7 @@ namespace regather::cli {
 namespace {
 
 /// The rows of cli/machine.h for each ordering, with its name before them.
-std::string through_machines(const Measurement& measurement, const trace::TraceReader& trace,
+std::string through_machines(const experiment::Measurement& measurement, const trace::TraceReader& trace,
                              std::span<const reorder::ParsedOrdering> orderings,
                              std::span<const cachesim::Machine> machines) {
     std::string text = "scene,ordering,parameters," + machine_header();
@@ -96,15 +96,15 @@ void add_replay(CLI::App& app) {
         "  regather replay out/room/trace --reorderer ./libmine.so --cache 16K:64:full 1M:64:16");
     command->callback([options] {
         if (!options->csv.empty()) results::refuse_to_overwrite(options->csv, options->force);
-        auto [orderings, reads] = parse_orderings(options->orders);
+        auto [orderings, reads] = experiment::parse_orderings(options->orders);
         std::vector<cachesim::CacheConfig> caches;
         for (const std::string& text : options->caches)
-            for (const cachesim::CacheConfig& cache : parse_caches(text)) caches.push_back(cache);
+            for (const cachesim::CacheConfig& cache : experiment::parse_caches(text)) caches.push_back(cache);
         std::vector<std::uint32_t> lines;
         for (const cachesim::CacheConfig& cache : caches)
             if (std::find(lines.begin(), lines.end(), cache.line_bytes) == lines.end())
                 lines.push_back(cache.line_bytes);
-        Method method{options->classes, options->buffers, {}};
+        experiment::Method method{options->classes, options->buffers, {}};
         if (options->one_of != 1) {
             if (options->classes || options->buffers)
                 throw trace::UsageError(fmt::format("--{}: found beside --sample, expected one of them",
@@ -115,7 +115,7 @@ void add_replay(CLI::App& app) {
         std::vector<cachesim::Machine> machines;
         if (!options->machines.empty()) machines = load_machines(options->machines);
         trace::TraceReader trace(options->trace);
-        Measurement measurement(trace, reads, parse_size(options->onchip));
+        experiment::Measurement measurement(trace, reads, trace::parse_size(options->onchip));
         if (!machines.empty()) {
             const std::string text = through_machines(measurement, trace, orderings, machines);
             if (options->csv.empty()) {

@@ -32,18 +32,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string method_text(const Method& method) {
+std::string method_text(const experiment::Method& method) {
     if (method.sampling) return fmt::format("1/{} seed {}", method.sampling->one_of, method.sampling->seed);
     return fmt::format("exact{}{}", method.classes ? " classes" : "", method.buffers ? " buffers" : "");
 }
 
 /// The rows of one trial, as a file that bears a digest of all that they depend on: the code, too.
-fs::path part_path(const fs::path& folder, const Trial& trial, const trace::TraceReader& trace,
-                   const Experiment& experiment) {
+fs::path part_path(const fs::path& folder, const experiment::Trial& trial, const trace::TraceReader& trace,
+                   const experiment::Experiment& experiment) {
     std::string key =
         fmt::format("{} {} {} {} {} {}", git_revision(), trace.checksum(), trial.ordering.spec.text,
                     trial.library_digest, experiment.onchip_bytes, method_text(experiment.method));
-    for (const cachesim::CacheConfig& cache : trial.caches) key += ' ' + cache_text(cache);
+    for (const cachesim::CacheConfig& cache : trial.caches) key += ' ' + experiment::cache_text(cache);
     return folder / "parts" / fmt::format("{:016x}.csv", XXH3_64bits(key.data(), key.size()));
 }
 
@@ -54,10 +54,10 @@ std::string join(const std::vector<std::uint32_t>& numbers) {
 }
 
 /// Compulsory traffic by line size, kept likewise.
-void find_compulsory(Measurement& measurement, const fs::path& folder, const Experiment& experiment,
-                     const trace::TraceReader& trace) {
+void find_compulsory(experiment::Measurement& measurement, const fs::path& folder,
+                     const experiment::Experiment& experiment, const trace::TraceReader& trace) {
     std::set<std::uint32_t> sizes;
-    for (const Trial& trial : experiment.trials)
+    for (const experiment::Trial& trial : experiment.trials)
         for (const cachesim::CacheConfig& cache : trial.caches) sizes.insert(cache.line_bytes);
     const std::vector<std::uint32_t> lines(sizes.begin(), sizes.end());
     const fs::path path =
@@ -82,20 +82,20 @@ void find_compulsory(Measurement& measurement, const fs::path& folder, const Exp
 }
 
 /// What the replays of all trials share, kept likewise when it is exact.
-void prepare(Measurement& measurement, const fs::path& folder, const Experiment& experiment,
-             const trace::TraceReader& trace) {
+void prepare(experiment::Measurement& measurement, const fs::path& folder,
+             const experiment::Experiment& experiment, const trace::TraceReader& trace) {
     std::vector<cachesim::CacheConfig> caches;
     std::string key =
         fmt::format("{} {} {}", git_revision(), trace.checksum(), method_text(experiment.method));
-    for (const Trial& trial : experiment.trials)
+    for (const experiment::Trial& trial : experiment.trials)
         for (const cachesim::CacheConfig& cache : trial.caches) {
             caches.push_back(cache);
-            key += ' ' + cache_text(cache);
+            key += ' ' + experiment::cache_text(cache);
         }
     const fs::path path =
         folder / "parts" / fmt::format("revisits-{:016x}.json", XXH3_64bits(key.data(), key.size()));
     if (!experiment.method.sampling && fs::exists(path)) {
-        const replay::Revisits revisits = read_revisits(path);
+        const replay::Revisits revisits = experiment::read_revisits(path);
         if (!replay::serve(revisits, {caches, experiment.method.classes}))
             throw trace::DataError(
                 fmt::format("{}: found counts of other caches, expected those of this experiment; delete it",
@@ -107,12 +107,12 @@ void prepare(Measurement& measurement, const fs::path& folder, const Experiment&
     measurement.prepare(caches, experiment.method, [&](std::uint64_t done) {
         progress.update("counting what no order changes", "queries", done, measurement.queries());
     });
-    if (!experiment.method.sampling) write_revisits(path, measurement.revisits());
+    if (!experiment.method.sampling) experiment::write_revisits(path, measurement.revisits());
 }
 
 /// Replays what is missing: as many trials at once as there are threads; their orders are made before, one by
 /// one, so that order_seconds is measured on a machine that does nothing else.
-void replay_missing(const Measurement& measurement, const Experiment& experiment,
+void replay_missing(const experiment::Measurement& measurement, const experiment::Experiment& experiment,
                     std::span<const fs::path> parts) {
     std::vector<std::size_t> missing;
     std::set<fs::path> seen;  // a trial that is asked for twice is replayed once
@@ -130,7 +130,7 @@ void replay_missing(const Measurement& measurement, const Experiment& experiment
         const std::size_t count = std::min(at_once, missing.size() - first);
         std::vector<reorder::Ordered> ordered;
         for (std::size_t i = 0; i < count; ++i) {
-            const Trial& trial = experiment.trials[missing[first + i]];
+            const experiment::Trial& trial = experiment.trials[missing[first + i]];
             progress.update(fmt::format("replaying {} orderings", missing.size()), "queries", done, total);
             ordered.push_back(measurement.order(*trial.ordering.ordering));
         }
@@ -138,7 +138,7 @@ void replay_missing(const Measurement& measurement, const Experiment& experiment
         for (std::size_t i = 0; i < count; ++i)
             replays.run([&, i] {
                 const std::size_t t = missing[first + i];
-                const Trial& trial = experiment.trials[t];
+                const experiment::Trial& trial = experiment.trials[t];
                 std::uint64_t before = 0;
                 const auto rows =
                     measurement.rows(trial.ordering, ordered[i], trial.caches, [&](std::uint64_t now) {
@@ -155,12 +155,13 @@ void replay_missing(const Measurement& measurement, const Experiment& experiment
 
 /// All rows of one trace: what is missing is replayed.
 std::vector<results::Row> measured(trace::TraceReader& trace, const fs::path& folder,
-                                   const Experiment& experiment) {
-    Measurement measurement(trace, reads(experiment), experiment.onchip_bytes);
+                                   const experiment::Experiment& experiment) {
+    experiment::Measurement measurement(trace, experiment::reads(experiment), experiment.onchip_bytes);
     fs::create_directories(folder / "parts");
     find_compulsory(measurement, folder, experiment, trace);
     std::vector<fs::path> parts;
-    for (const Trial& trial : experiment.trials) parts.push_back(part_path(folder, trial, trace, experiment));
+    for (const experiment::Trial& trial : experiment.trials)
+        parts.push_back(part_path(folder, trial, trace, experiment));
     if (!std::all_of(parts.begin(), parts.end(), [](const fs::path& part) { return fs::exists(part); })) {
         prepare(measurement, folder, experiment, trace);
         replay_missing(measurement, experiment, parts);
@@ -195,9 +196,14 @@ void add_run(CLI::App& app) {
         "Finished parts in the folder are kept: the same command goes on after an interruption.\n"
         "Example:\n  regather run scenes/experiments/figure4.json -o out/figure4");
     command->callback([options] {
-        const Experiment experiment = load_experiment(options->experiment);
-        const CaptureResult captured = run(CaptureJob{experiment.scene, experiment.capture, reads(experiment),
-                                                      options->folder, options->force});
+        const experiment::Experiment experiment = experiment::load_experiment(options->experiment);
+        experiment::CaptureResult captured;
+        {
+            Progress progress;
+            captured = experiment::run({experiment.scene, experiment.capture, experiment::reads(experiment),
+                                        options->folder, options->force},
+                                       progress.listener());
+        }
         fmt::print("{}", captured.report);
         std::fflush(stdout);
 

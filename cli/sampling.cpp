@@ -28,14 +28,14 @@ struct Options {
 
 void run(const Options& options) {
     if (!options.csv.empty()) results::refuse_to_overwrite(options.csv, options.force);
-    auto [orderings, reads] = parse_orderings(options.orders);
+    auto [orderings, reads] = experiment::parse_orderings(options.orders);
     std::vector<cachesim::CacheConfig> caches;
     for (const std::string& text : options.caches)
-        for (const cachesim::CacheConfig& cache : parse_caches(text)) caches.push_back(cache);
+        for (const cachesim::CacheConfig& cache : experiment::parse_caches(text)) caches.push_back(cache);
     for (const std::uint32_t rate : options.rates) replay::SetSample::check(caches, {rate, 1});
 
     trace::TraceReader trace(options.trace);
-    Measurement exact(trace, reads, reorder::default_onchip_bytes),
+    experiment::Measurement exact(trace, reads, reorder::default_onchip_bytes),
         sampled(trace, reads, reorder::default_onchip_bytes);
     Progress progress;
     const auto shared = [&](std::uint64_t done) {

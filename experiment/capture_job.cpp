@@ -4,14 +4,13 @@
 
 #include <optional>
 
-#include "cli/progress.h"
 #include "experiment/frames.h"
 #include "scenes/camera_path.h"
 #include "scenes/loader.h"
 #include "trace/error.h"
 #include "trace/folder.h"
 
-namespace regather::cli {
+namespace regather::experiment {
 namespace {
 
 namespace fs = std::filesystem;
@@ -64,7 +63,7 @@ std::optional<std::string> kept(const fs::path& folder, const Files& files, cons
 
 /// One picture, with its traces, into `folder`.
 std::string capture_into(const fs::path& folder, const scenes::Scene& scene, capture::CaptureConfig config,
-                         const CaptureOptions& options, bool force) {
+                         const CaptureOptions& options, bool force, const ProgressListener& progress) {
     const Files files(folder);
     const bool has_caustics = capture::has_caustic_map(scene, config);
     if (!force)
@@ -77,16 +76,13 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
     } else {
         fs::remove_all(files.caustic_trace);
     }
-    capture::Captured captured;
-    {
-        Progress progress;
-        const std::string name =
-            config.frame ? fmt::format("{}, frame {}", scene.name, *config.frame) : scene.name;
-        config.progress = [&](std::string_view stage, std::uint64_t done, std::uint64_t total) {
-            progress.update(fmt::format("capturing {}: {}", name, stage), stage, done, total);
-        };
-        captured = capture::capture(scene, config, {&writer, caustic_writer ? &*caustic_writer : nullptr});
-    }
+    const std::string name =
+        config.frame ? fmt::format("{}, frame {}", scene.name, *config.frame) : scene.name;
+    config.progress = [&](std::string_view stage, std::uint64_t done, std::uint64_t total) {
+        if (progress) progress(fmt::format("capturing {}: {}", name, stage), stage, done, total);
+    };
+    const capture::Captured captured =
+        capture::capture(scene, config, {&writer, caustic_writer ? &*caustic_writer : nullptr});
     std::vector<capture::Channel> channels = capture::channels_of(captured.image, "");
     for (capture::Channel& channel : captured.layers.channels()) channels.push_back(std::move(channel));
     capture::write_exr(files.exr, captured.image.width, captured.image.height, channels);
@@ -115,7 +111,7 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
 
 }  // namespace
 
-CaptureResult run(const CaptureJob& job) {
+CaptureResult run(const CaptureJob& job, const ProgressListener& progress) {
     scenes::Scene scene = scenes::load_scene(job.scene);
     capture::CaptureConfig config = job.options.config();
     if (job.reads) {
@@ -125,7 +121,7 @@ CaptureResult run(const CaptureJob& job) {
     }
     CaptureResult result;
     if (job.options.frames.empty()) {
-        result.report = capture_into(job.folder, scene, config, job.options, job.force);
+        result.report = capture_into(job.folder, scene, config, job.options, job.force, progress);
         result.folders.push_back(job.folder);
         return result;
     }
@@ -137,10 +133,10 @@ CaptureResult run(const CaptureJob& job) {
         const fs::path folder = frame_folder(job.folder, frame);
         scene.camera = scenes::camera_at(scene, frame);
         config.frame = frame;
-        result.report += capture_into(folder, scene, config, job.options, job.force);
+        result.report += capture_into(folder, scene, config, job.options, job.force, progress);
         result.folders.push_back(folder);
     }
     return result;
 }
 
-}  // namespace regather::cli
+}  // namespace regather::experiment

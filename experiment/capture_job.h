@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "experiment/capture_options.h"
+#include "experiment/progress.h"
 #include "reorder/ordering.h"
 
-namespace regather::cli {
+namespace regather::experiment {
 
 struct CaptureJob {
     std::string scene;
@@ -27,6 +28,6 @@ struct CaptureResult {
 
 /// Keeps a finished capture of the same scene and parameters. A finished one of others: trace::UsageError,
 /// unless `force`.
-CaptureResult run(const CaptureJob& job);
+CaptureResult run(const CaptureJob& job, const ProgressListener& progress);
 
-}  // namespace regather::cli
+}  // namespace regather::experiment

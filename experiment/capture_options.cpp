@@ -13,7 +13,7 @@
 #include "reorder/catalogue.h"
 #include "trace/error.h"
 
-namespace regather::cli {
+namespace regather::experiment {
 namespace {
 
 constexpr std::uint32_t most_pixels = 32768;
@@ -193,4 +193,4 @@ CaptureOptions capture_options(const nlohmann::json& object, const std::string& 
     return options;
 }
 
-}  // namespace regather::cli
+}  // namespace regather::experiment

@@ -11,7 +11,7 @@ namespace CLI {
 class App;
 }
 
-namespace regather::cli {
+namespace regather::experiment {
 
 /// Defaults: the paper's Tables 1 and 2.
 struct CaptureOptions {
@@ -42,4 +42,4 @@ struct CaptureOptions {
 /// The "capture" object of an experiment; `file` is for messages.
 CaptureOptions capture_options(const nlohmann::json& object, const std::string& file);
 
-}  // namespace regather::cli
+}  // namespace regather::experiment

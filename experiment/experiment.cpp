@@ -15,7 +15,7 @@
 #include "trace/file.h"
 #include "trace/size.h"
 
-namespace regather::cli {
+namespace regather::experiment {
 namespace {
 
 using nlohmann::json;
@@ -106,7 +106,7 @@ Experiment load_experiment(const std::filesystem::path& path) {
     if (in.has("onchip")) {
         const std::vector<std::string> sizes = in.list("onchip", {});
         if (sizes.size() != 1) in.refuse("onchip", root["onchip"].dump(), "one size");
-        experiment.onchip_bytes = at(in, "onchip", [&] { return parse_size(sizes.front()); });
+        experiment.onchip_bytes = at(in, "onchip", [&] { return trace::parse_size(sizes.front()); });
     }
     const std::vector<cachesim::CacheConfig> caches =
         in.has("caches") ? listed_caches(in) : std::vector<cachesim::CacheConfig>{cachesim::CacheConfig{}};
@@ -155,4 +155,4 @@ reorder::Reads reads(const Experiment& experiment) {
     return all;
 }
 
-}  // namespace regather::cli
+}  // namespace regather::experiment

@@ -11,7 +11,7 @@
 #include "experiment/measurement.h"
 #include "reorder/catalogue.h"
 
-namespace regather::cli {
+namespace regather::experiment {
 
 /// One ordering with all its parameters, and the caches it is replayed through.
 struct Trial {
@@ -35,4 +35,4 @@ Experiment load_experiment(const std::filesystem::path& path);
 /// What any of the trials' orderings looks at.
 reorder::Reads reads(const Experiment& experiment);
 
-}  // namespace regather::cli
+}  // namespace regather::experiment

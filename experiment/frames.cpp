@@ -9,7 +9,7 @@
 
 #include "trace/error.h"
 
-namespace regather::cli {
+namespace regather::experiment {
 namespace {
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -55,4 +55,4 @@ std::filesystem::path frame_folder(const std::filesystem::path& folder, std::uin
     return folder / fmt::format("frame-{:04}", frame);
 }
 
-}  // namespace regather::cli
+}  // namespace regather::experiment

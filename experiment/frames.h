@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace regather::cli {
+namespace regather::experiment {
 
 /// The frames in the order given; all below `count`. Throws trace::UsageError; also for an empty or repeated
 /// selection.
@@ -15,4 +15,4 @@ std::vector<std::uint32_t> parse_frames(const std::string& text, std::uint32_t c
 /// Where a frame of a capture lies: FOLDER/frame-0005.
 std::filesystem::path frame_folder(const std::filesystem::path& folder, std::uint32_t frame);
 
-}  // namespace regather::cli
+}  // namespace regather::experiment

@@ -8,7 +8,7 @@
 #include "trace/error.h"
 #include "trace/word.h"
 
-namespace regather::cli {
+namespace regather::experiment {
 
 Object::Object(const nlohmann::json& value, std::span<const std::string_view> known, std::string file,
                std::string where)
@@ -92,4 +92,4 @@ const nlohmann::json& Object::array(std::string_view key) const {
     return value;
 }
 
-}  // namespace regather::cli
+}  // namespace regather::experiment

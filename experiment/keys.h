@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace regather::cli {
+namespace regather::experiment {
 
 /// Errors are trace::DataError: "FILE: WHERE.KEY: found X, expected Y".
 class Object {
@@ -39,4 +39,4 @@ private:
     std::string file_, where_;
 };
 
-}  // namespace regather::cli
+}  // namespace regather::experiment

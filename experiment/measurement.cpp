@@ -9,7 +9,7 @@
 #include "trace/error.h"
 #include "trace/size.h"
 
-namespace regather::cli {
+namespace regather::experiment {
 
 namespace {
 
@@ -36,8 +36,8 @@ std::vector<cachesim::CacheConfig> parse_caches(std::string_view text) {
         for (const std::string_view line : split(fields[1], ','))
             for (const std::string_view ways : split(fields[2], ',')) {
                 cachesim::CacheConfig& cache = caches.emplace_back();
-                cache.size_bytes = parse_size(size);
-                const std::uint64_t line_bytes = parse_size(line);
+                cache.size_bytes = trace::parse_size(size);
+                const std::uint64_t line_bytes = trace::parse_size(line);
                 if (line_bytes > 0xffffffffu) refuse();
                 cache.line_bytes = static_cast<std::uint32_t>(line_bytes);
                 if (ways == "full") {
@@ -201,4 +201,4 @@ std::vector<results::Row> Measurement::rows(const reorder::ParsedOrdering& parse
     return rows;
 }
 
-}  // namespace regather::cli
+}  // namespace regather::experiment

@@ -17,7 +17,7 @@
 #include "results/row.h"
 #include "trace/folder.h"
 
-namespace regather::cli {
+namespace regather::experiment {
 
 /// "128K:128:8", "128K:128:full", or lists that are multiplied out, "16K,32K:128:1,2,full". Throws
 /// trace::UsageError.
@@ -88,4 +88,4 @@ private:
     replay::LineUse line_use_;
 };
 
-}  // namespace regather::cli
+}  // namespace regather::experiment

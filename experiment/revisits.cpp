@@ -7,7 +7,7 @@
 #include "trace/error.h"
 #include "trace/file.h"
 
-namespace regather::cli {
+namespace regather::experiment {
 
 using nlohmann::json;
 
@@ -50,4 +50,4 @@ replay::Revisits read_revisits(const std::filesystem::path& path) {
     }
 }
 
-}  // namespace regather::cli
+}  // namespace regather::experiment

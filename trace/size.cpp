@@ -8,12 +8,12 @@
 #include "trace/error.h"
 #include "trace/text.h"
 
-namespace regather::cli {
+namespace regather::trace {
 
 std::uint64_t parse_size(std::string_view text) {
     const auto refuse = [&] {
-        return trace::UsageError(fmt::format(
-            "size: found '{}', expected bytes below 2^64 as 4096, 16K, 1M or 2G", trace::shown(text)));
+        return UsageError(
+            fmt::format("size: found '{}', expected bytes below 2^64 as 4096, 16K, 1M or 2G", shown(text)));
     };
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -27,4 +27,4 @@ std::uint64_t parse_size(std::string_view text) {
     return value << shift;
 }
 
-}  // namespace regather::cli
+}  // namespace regather::trace

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "experiment/contest.h"
+#include "experiment/race.h"
 #include "results/csv.h"
 #include "spatial/photon_kd.h"
 #include "tests/cli/expect.h"
@@ -17,17 +17,17 @@ using testing::ElementsAre, testing::HasSubstr, testing::StartsWith;
 
 TEST(Timing, MedianSpreadAndDeviationAsDrawnByHand) {
     // sorted 1 2 4 7 16; from the median 4: 3 2 0 3 12, whose median is 3
-    const Timing odd = timing_of({7, 1, 16, 2, 4});
+    const experiment::Timing odd = experiment::timing_of({7, 1, 16, 2, 4});
     EXPECT_EQ(odd.median, 4);
     EXPECT_EQ(odd.min, 1);
     EXPECT_EQ(odd.max, 16);
     EXPECT_EQ(odd.mad, 3);
     // sorted 1 2 4 9: the middle two give 3; from it 2 1 1 6, whose middle two give 1.5
-    const Timing even = timing_of({9, 1, 4, 2});
+    const experiment::Timing even = experiment::timing_of({9, 1, 4, 2});
     EXPECT_EQ(even.median, 3);
     EXPECT_EQ(even.mad, 1.5);
-    EXPECT_EQ(timing_of({5}).median, 5);
-    EXPECT_EQ(timing_of({5}).mad, 0);
+    EXPECT_EQ(experiment::timing_of({5}).median, 5);
+    EXPECT_EQ(experiment::timing_of({5}).mad, 0);
 }
 
 std::vector<std::vector<std::string>> cells(const std::string& csv) {
@@ -184,32 +184,36 @@ struct Line {
 
 constexpr auto silent = [](std::uint64_t, std::uint64_t) {};
 
-TEST(Contest, CountsThePhotonsFoundAndReportsEveryQueryOnce) {
+TEST(RaceOfSearches, CountsThePhotonsFoundAndReportsEveryQueryOnce) {
     Line line;
     // Of 200 photons on a line those within 1: three, but two at either end. 3000 queries are 15 on each
     // photon.
-    ContestConfig config{
-        .k = 10, .radius = 1, .repeats = 3, .threads = 2, .structures = {structures[0], structures[1]}};
+    experiment::RaceConfig config{.k = 10,
+                                  .radius = 1,
+                                  .repeats = 3,
+                                  .threads = 2,
+                                  .structures = {experiment::structures[0], experiment::structures[1]}};
     std::uint64_t last = 0, all = 0;
-    const Contest held = contest(line.heap, line.work, line.orderings, 1, config,
-                                 [&](std::uint64_t done, std::uint64_t total) {
-                                     last = done;
-                                     all = total;
-                                 });
+    const experiment::Race held = experiment::race(line.heap, line.work, line.orderings, 1, config,
+                                                   [&](std::uint64_t done, std::uint64_t total) {
+                                                       last = done;
+                                                       all = total;
+                                                   });
     EXPECT_EQ(held.found_photons, 15u * (198 * 3 + 2 * 2));
     EXPECT_EQ(held.standings.size(), 6u);
     EXPECT_EQ(last, all);
     EXPECT_EQ(all, 3000u * 3 * 2 * 3);
 }
 
-TEST(Contest, SearchesThatDisagreeAreAFailedRun) {
+TEST(RaceOfSearches, SearchesThatDisagreeAreAFailedRun) {
     Line line;
     // Two photons swapped: the left-balanced search prunes by planes that are wrong now, the buckets are
     // built anew.
     std::swap(line.heap[1], line.heap[2]);
-    const ContestConfig config{.k = 3, .repeats = 1, .structures = {structures[0], structures[1]}};
+    const experiment::RaceConfig config{
+        .k = 3, .repeats = 1, .structures = {experiment::structures[0], experiment::structures[1]}};
     try {
-        contest(line.heap, line.work, line.orderings, 1, config, silent);
+        experiment::race(line.heap, line.work, line.orderings, 1, config, silent);
         FAIL() << "expected an error";
     } catch (const std::runtime_error& error) {
         EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("query"), HasSubstr("bucketed"),

@@ -48,7 +48,7 @@ protected:
     void refused(const std::string& text, const std::vector<std::string>& parts_of_message) const {
         write(file_, text);
         try {
-            load_experiment(file_);
+            experiment::load_experiment(file_);
             ADD_FAILURE() << "accepted: " << text;
         } catch (const trace::DataError& error) {
             EXPECT_THAT(error.what(),

@@ -5,7 +5,7 @@
 #include "experiment/measurement.h"
 #include "trace/error.h"
 
-namespace regather::cli {
+namespace regather::experiment {
 namespace {
 
 TEST(ParseCache, SizeLineAndWays) {
@@ -56,4 +56,4 @@ TEST(ParseCaches, ListsAreMultipliedOutSizesOutermost) {
 }
 
 }  // namespace
-}  // namespace regather::cli
+}  // namespace regather::experiment

@@ -5,7 +5,7 @@
 
 #include "trace/error.h"
 
-namespace regather::cli {
+namespace regather::experiment {
 namespace {
 
 using testing::ElementsAre;
@@ -25,4 +25,4 @@ TEST(Frames, OutsideThePathOrMisspeltAreRefused) {
 }
 
 }  // namespace
-}  // namespace regather::cli
+}  // namespace regather::experiment

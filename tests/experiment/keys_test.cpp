@@ -8,7 +8,7 @@
 
 #include "trace/error.h"
 
-namespace regather::cli {
+namespace regather::experiment {
 namespace {
 
 using nlohmann::json;
@@ -113,4 +113,4 @@ TEST(Keys, FlagsTextsAndListsAreStrict) {
 }
 
 }  // namespace
-}  // namespace regather::cli
+}  // namespace regather::experiment

@@ -4,7 +4,7 @@
 #include "tests/cli/expect.h"
 #include "trace/error.h"
 
-namespace regather::cli {
+namespace regather::experiment {
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,9 +32,9 @@ TEST(Revisits, AFileThatIsSomethingElseIsRefusedByName) {
     const Scratch scratch;
     const fs::path path = scratch / "revisits.json";
     write_revisits(path, some_revisits());
-    const std::string whole = content(path);
+    const std::string whole = cli::content(path);
     const auto refused = [&](const std::string& text) {
-        write(path, text);
+        cli::write(path, text);
         try {
             read_revisits(path);
             ADD_FAILURE() << "accepted: " << text;
@@ -56,4 +56,4 @@ TEST(Revisits, AFileThatIsSomethingElseIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace regather::cli
+}  // namespace regather::experiment

@@ -5,6 +5,6 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     return regather::fuzz::read_or_refuse([&] {
-        regather::cli::parse_size({reinterpret_cast<const char*>(data), size});
+        regather::trace::parse_size({reinterpret_cast<const char*>(data), size});
     });
 }

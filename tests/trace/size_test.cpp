@@ -4,7 +4,7 @@
 
 #include "trace/error.h"
 
-namespace regather::cli {
+namespace regather::trace {
 namespace {
 
 TEST(ParseSize, SuffixesArePowersOf1024) {
@@ -35,4 +35,4 @@ TEST(ParseSize, ShowsWhatItRefusesOnOneLine) {
 }
 
 }  // namespace
-}  // namespace regather::cli
+}  // namespace regather::trace

@@ -1,4 +1,4 @@
-// experiment/contest.h -- runs the real searches of a trace's queries on this machine, in several orderings
+// experiment/race.h -- runs the real searches of a trace's queries on this machine, in several orderings
 // and structures, and takes the time. A repeat runs every ordering once: it is made, then all structures are
 // searched in it. So a drift of the machine's speed meets all alike; and each repeat begins with another
 // ordering.
@@ -14,7 +14,7 @@
 #include "reorder/catalogue.h"
 #include "trace/photon.h"
 
-namespace regather::cli {
+namespace regather::experiment {
 
 enum class Structure { left_balanced, bucketed };  ///< spatial/nearest.h, spatial/photon_buckets.h
 inline constexpr Structure structures[] = {Structure::left_balanced, Structure::bucketed};
@@ -28,7 +28,7 @@ struct Timing {
 };
 Timing timing_of(std::vector<double> seconds);
 
-struct ContestConfig {
+struct RaceConfig {
     std::uint32_t k = 100;
     float radius = std::numeric_limits<float>::infinity();  ///< Of a search [scene units].
     std::uint32_t repeats = 11, threads = 1;                ///< At least 1. Threads make orderings, too.
@@ -45,7 +45,7 @@ struct Standing {
     double net_gain = 0;  ///< [s] Median over the repeats of: baseline's search - (search + order).
 };
 
-struct Contest {
+struct Race {
     std::vector<Standing> standings;  ///< Ordering by ordering, structure by structure.
     std::uint64_t found_photons = 0;  ///< By all queries; the same in every run.
 };
@@ -53,9 +53,8 @@ struct Contest {
 /// `heap`: photons of a left-balanced tree. The baseline is `orderings[baseline]`, which must be the capture
 /// order. `progress` is told the queries searched of all. Throws std::runtime_error that names ordering and
 /// query when two runs find other photons for the same query.
-Contest contest(std::span<const trace::Photon> heap, const reorder::Workload& work,
-                std::span<const reorder::ParsedOrdering> orderings, std::size_t baseline,
-                const ContestConfig& config,
-                const std::function<void(std::uint64_t done, std::uint64_t total)>& progress);
+Race race(std::span<const trace::Photon> heap, const reorder::Workload& work,
+          std::span<const reorder::ParsedOrdering> orderings, std::size_t baseline, const RaceConfig& config,
+          const std::function<void(std::uint64_t done, std::uint64_t total)>& progress);
 
-}  // namespace regather::cli
+}  // namespace regather::experiment

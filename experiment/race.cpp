@@ -1,4 +1,4 @@
-#include "experiment/contest.h"
+#include "experiment/race.h"
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
@@ -13,7 +13,7 @@
 #include "spatial/nearest.h"
 #include "spatial/photon_buckets.h"
 
-namespace regather::cli {
+namespace regather::experiment {
 namespace {
 
 using trace::Vec3;
@@ -148,10 +148,9 @@ Timing timing_of(std::vector<double> seconds) {
     return timing;
 }
 
-Contest contest(std::span<const trace::Photon> heap, const reorder::Workload& work,
-                std::span<const reorder::ParsedOrdering> orderings, std::size_t baseline,
-                const ContestConfig& config,
-                const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
+Race race(std::span<const trace::Photon> heap, const reorder::Workload& work,
+          std::span<const reorder::ParsedOrdering> orderings, std::size_t baseline, const RaceConfig& config,
+          const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
     const std::size_t queries = work.position.size(), kinds = config.structures.size();
     const std::uint64_t total = std::uint64_t{queries} * kinds * orderings.size() * config.repeats;
     const std::uint32_t k = std::min(config.k, static_cast<std::uint32_t>(heap.size()));
@@ -165,7 +164,7 @@ Contest contest(std::span<const trace::Photon> heap, const reorder::Workload& wo
 
     std::vector<std::vector<double>> order_seconds(orderings.size());
     std::vector<std::vector<double>> search_seconds(orderings.size() * kinds);  // [ordering][structure]
-    Contest result;
+    Race result;
     std::uint64_t done = 0;
     for (std::size_t repeat = 0; repeat < config.repeats; ++repeat) {
         for (std::size_t turn = 0; turn < orderings.size(); ++turn) {
@@ -214,4 +213,4 @@ Contest contest(std::span<const trace::Photon> heap, const reorder::Workload& wo
     return result;
 }
 
-}  // namespace regather::cli
+}  // namespace regather::experiment
