@@ -1,15 +1,14 @@
-// capture/ray_caster.h -- rays against the triangles of a scene, by Embree 3, and where the next ray starts.
-// Embree is held to AVX2 kernels, so that a machine with wider vectors finds the same hits to the last bit.
-// docs/stability.md has the error bounds.
+// capture/ray_caster.h -- rays against the triangles of a scene (spatial/rays/cast.h), and where the next ray
+// starts. docs/stability.md has the error bounds.
 #pragma once
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "scenes/scene.h"
+#include "spatial/rays/ray_bvh.h"
 
 namespace regather::capture {
 
@@ -30,10 +29,9 @@ struct Hit {
 
 class RayCaster {
 public:
-    /// Triangles without any area are never hit. The scene outlives the caster. Throws std::runtime_error
-    /// with Embree's message.
+    /// Triangles without any area are never hit; of triangles at the same distance the one with the smallest
+    /// number is. The scene outlives the caster. Throws as spatial::RayBvh does.
     explicit RayCaster(const Scene& scene);
-    ~RayCaster();
     RayCaster(const RayCaster&) = delete;
     RayCaster& operator=(const RayCaster&) = delete;
 
@@ -58,7 +56,7 @@ public:
 
 private:
     // In floats (units in the last place) beyond `far_`, as a share of `far_` within. Half of the smallest
-    // step, 2^-19, is what the errors of the hit point and of Embree's distance add up to at most
+    // step, 2^-19, is what the errors of the hit point and of its distance add up to at most
     // (docs/stability.md).
     static constexpr float floats_ = 64, share_ = 0x1p-18f;
 
@@ -74,12 +72,10 @@ private:
         Vec3 a, b, c, normal;
         float near_edge;  ///< Barycentric coordinates below it may lie within inset() of an edge.
     };
-    struct Embree;
     const Scene& scene_;
-    trace::Bounds3 bounds_;
     float far_, step_, largest_offset_, inset_;
     std::vector<Corners> corners_;
-    std::unique_ptr<Embree> embree_;
+    spatial::RayBvh bvh_;
 };
 
 }  // namespace regather::capture

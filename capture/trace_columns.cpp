@@ -5,8 +5,8 @@
 
 #include <optional>
 
-#include "spatial/triangle_bvh.h"
-#include "spatial/triangle_kd.h"
+#include "spatial/rays/triangle_bvh.h"
+#include "spatial/rays/triangle_kd.h"
 
 namespace regather::capture {
 namespace {

@@ -1,4 +1,4 @@
-// tests/spatial/soup.h -- triangle soups to build structures over: random ones, and some drawn by hand.
+// tests/spatial/rays/soup.h -- triangle soups to build structures over: random ones, and some drawn by hand.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "spatial/triangle.h"
+#include "spatial/rays/triangle.h"
 #include "trace/bounds.h"
 #include "trace/vec.h"
 

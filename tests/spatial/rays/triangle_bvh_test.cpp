@@ -1,4 +1,4 @@
-#include "spatial/triangle_bvh.h"
+#include "spatial/rays/triangle_bvh.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/spatial/soup.h"
+#include "tests/spatial/rays/soup.h"
 #include "trace/error.h"
 
 namespace regather::spatial {

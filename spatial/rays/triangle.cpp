@@ -1,4 +1,4 @@
-#include "spatial/triangle.h"
+#include "spatial/rays/triangle.h"
 
 #include <fmt/format.h>
 
@@ -26,6 +26,15 @@ std::vector<trace::Bounds3> triangle_bounds(std::span<const trace::Vec3> vertice
         }
     }
     return boxes;
+}
+
+std::array<double, 3> across(trace::Vec3 a, trace::Vec3 b, trace::Vec3 c) {
+    double ab[3], ac[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        ab[axis] = double(b[axis]) - double(a[axis]);
+        ac[axis] = double(c[axis]) - double(a[axis]);
+    }
+    return {ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2], ab[0] * ac[1] - ab[1] * ac[0]};
 }
 
 }  // namespace regather::spatial

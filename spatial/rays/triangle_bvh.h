@@ -1,4 +1,4 @@
-// spatial/triangle_bvh.h -- a bounding volume hierarchy over triangles, whose leaves are numbered
+// spatial/rays/triangle_bvh.h -- a bounding volume hierarchy over triangles, whose leaves are numbered
 // depth-first: the variant of the ordering `kd-leaf` (the paper, end of section 6.3.2) for a renderer that
 // casts rays through a BVH. Built by Embree 3's rtcBuildBVH (binary, binned surface area heuristic, no
 // spatial splits: each triangle lies in exactly one leaf). Of two children, the one whose centre is lower on
@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "spatial/triangle.h"
+#include "spatial/rays/triangle.h"
 #include "trace/bounds.h"
 #include "trace/vec.h"
 

@@ -1,4 +1,4 @@
-#include "spatial/triangle_kd.h"
+#include "spatial/rays/triangle_kd.h"
 
 #include <fmt/format.h>
 

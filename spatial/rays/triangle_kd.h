@@ -1,5 +1,5 @@
-// spatial/triangle_kd.h -- a kd-tree over triangles, whose leaves are numbered depth-first: the labels by
-// which the ordering `kd-leaf` sorts kNN queries (the paper, end of section 6.3.2). Splits by the surface
+// spatial/rays/triangle_kd.h -- a kd-tree over triangles, whose leaves are numbered depth-first: the labels
+// by which the ordering `kd-leaf` sorts kNN queries (the paper, end of section 6.3.2). Splits by the surface
 // area heuristic (MacDonald & Booth, "Heuristics for Ray Tracing Using Space Subdivision", 1990), swept
 // exactly over events that are sorted once (Wald & Havran, "On Building Fast kd-Trees for Ray Tracing, and on
 // Doing that in O(N log N)", 2006), with each triangle represented by its box. Lengths in scene units. Built
@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "spatial/triangle.h"
+#include "spatial/rays/triangle.h"
 #include "trace/bounds.h"
 #include "trace/vec.h"
 
