@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capture/png.h"
+#include "capture/png_bytes.h"
 #include "trace/file.h"
 
 namespace regather::capture {

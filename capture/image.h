@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "capture/exr.h"
+#include "capture/exr_bytes.h"
 #include "trace/vec.h"
 
 namespace regather::capture {

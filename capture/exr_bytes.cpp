@@ -1,4 +1,4 @@
-#include "capture/exr.h"
+#include "capture/exr_bytes.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>

@@ -1,4 +1,4 @@
-// capture/exr.h -- floating-point pictures as the bytes of an OpenEXR file.
+// capture/exr_bytes.h -- floating-point pictures as the bytes of an OpenEXR file.
 #pragma once
 #include <cstdint>
 #include <span>

@@ -1,4 +1,4 @@
-#include "capture/png.h"
+#include "capture/png_bytes.h"
 
 #include <fmt/format.h>
 #include <png.h>

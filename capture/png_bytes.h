@@ -1,4 +1,4 @@
-// capture/png.h -- 8-bit pictures as the bytes of a PNG file.
+// capture/png_bytes.h -- 8-bit pictures as the bytes of a PNG file.
 #pragma once
 #include <cstdint>
 #include <span>
