@@ -3,6 +3,7 @@
 #   make test   the same for the tests, then all but the slow ones (make test-slow)
 PRESET ?= release
 OUT ?= out/room
+FILTER ?= -LE slow
 build = build/$(PRESET)
 
 .PHONY: run test test-slow tests fuzz binary bench clean scenes-packages
@@ -11,7 +12,7 @@ run: binary
 	$(build)/regather run scenes/experiments/room-small.json -o $(OUT)
 
 test: tests
-	ctest --preset $(PRESET) -LE slow
+	ctest --preset $(PRESET) $(FILTER)
 
 test-slow: tests
 	ctest --preset $(PRESET) -L slow

@@ -16,9 +16,8 @@ struct ContactSheetConfig {
 };
 
 /// Each scene by its standing camera at its own middle exposure, in the order given, row by row from the top
-/// left; display values in [0, 1], to be written with Tone::linear. The names are drawn by OpenImageIO in
-/// DejaVu Sans; without that font they are left out, and the order tells. Throws trace::UsageError when there
-/// is no scene.
+/// left; display values in [0, 1], to be written with Tone::linear. A name that is wider than its rendering
+/// is cut. Throws trace::UsageError when there is no scene.
 Image contact_sheet(std::span<const scenes::Scene> all, const ContactSheetConfig& config,
                     const std::function<void(std::string_view scene, std::size_t done)>& progress = {});
 

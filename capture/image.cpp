@@ -1,44 +1,15 @@
 #include "capture/image.h"
 
-#include <OpenImageIO/imageio.h>
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <stdexcept>
 
-#include "trace/error.h"
+#include "capture/png_bytes.h"
+#include "trace/file.h"
 
 namespace regather::capture {
 namespace {
 
 namespace fs = std::filesystem;
-
-template <class Value>
-void write(const fs::path& path, std::uint32_t width, std::uint32_t height,
-           const std::vector<std::string>& names, const std::vector<Value>& values, OIIO::TypeDesc type,
-           const char* color_space) {
-    fs::path partial = path.parent_path() / fmt::format("partial-{}", path.filename().string());
-    const auto fail = [&](const std::string& what) {
-        fs::remove(partial);
-        throw std::runtime_error(fmt::format("{}: cannot write: {}", path.string(), what));
-    };
-    const auto output = OIIO::ImageOutput::create(path.string());
-    if (!output) fail(OIIO::geterror());
-    OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height), static_cast<int>(names.size()),
-                         type);
-    spec.channelnames = names;
-    spec.attribute("oiio:ColorSpace", color_space);
-    spec.attribute("compression", "zip");
-    spec.attribute("DateTime", "");  // else OpenImageIO writes the clock into the file
-    if (!output->open(partial.string(), spec)) fail(output->geterror());
-    if (!output->write_image(type, values.data())) fail(output->geterror());
-    if (!output->close()) fail(output->geterror());
-    std::error_code error;
-    fs::rename(partial, path, error);
-    if (error) fail(error.message());
-}
 
 float to_srgb(float linear) {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
@@ -56,7 +27,7 @@ float toned(float x, Tone tone) {
     return 0;
 }
 
-const std::vector<std::string> rgb{"R", "G", "B"};
+constexpr std::array rgb{"R", "G", "B"};
 
 }  // namespace
 
@@ -66,13 +37,7 @@ void write_exr(const fs::path& path, const Image& image) {
 
 void write_exr(const fs::path& path, std::uint32_t width, std::uint32_t height,
                std::span<const Channel> channels) {
-    std::vector<std::string> names;
-    for (const Channel& channel : channels) names.push_back(channel.name);
-    std::vector<float> values;
-    values.reserve(std::size_t{width} * height * channels.size());
-    for (std::size_t i = 0; i < std::size_t{width} * height; ++i)
-        for (const Channel& channel : channels) values.push_back(channel.values[i]);
-    write(path, width, height, names, values, OIIO::TypeDesc::FLOAT, "Linear");
+    trace::write_whole(path, exr_bytes(width, height, channels));
 }
 
 std::vector<Channel> channels_of(const Image& image, const std::string& layer) {
@@ -97,8 +62,8 @@ void write_png(const fs::path& path, const Image& image, float exposure, Tone to
 }
 
 void write_png(const fs::path& path, std::uint32_t width, std::uint32_t height,
-               std::vector<std::uint8_t> values) {
-    write(path, width, height, rgb, values, OIIO::TypeDesc::UINT8, "sRGB");
+               std::span<const std::uint8_t> values) {
+    trace::write_whole(path, png_bytes(width, height, values));
 }
 
 float middle_exposure(const Image& image) {
@@ -106,20 +71,6 @@ float middle_exposure(const Image& image) {
     for (trace::Vec3 p : image.pixels) sum += luminance(p);
     const double mean = image.pixels.empty() ? 0 : sum / static_cast<double>(image.pixels.size());
     return mean > 0 ? static_cast<float>(0.2876820724517809 / mean) : 1.0f;  // 1 - exp(-x) = 0.25
-}
-
-Image read_image(const fs::path& path) {
-    const auto input = OIIO::ImageInput::open(path.string());
-    if (!input) throw trace::DataError(fmt::format("{}: {}", path.string(), OIIO::geterror()));
-    const OIIO::ImageSpec& spec = input->spec();
-    if (spec.nchannels < 3)
-        throw trace::DataError(
-            fmt::format("{}: found {} channels, expected 3", path.string(), spec.nchannels));
-    Image image{static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), {}};
-    image.pixels.resize(std::size_t{image.width} * image.height);
-    if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, image.pixels.data()))
-        throw trace::DataError(fmt::format("{}: {}", path.string(), input->geterror()));
-    return image;
 }
 
 }  // namespace regather::capture

@@ -1,4 +1,5 @@
-// capture/image.h -- images in and out, through OpenImageIO: linear radiance as EXR, a view of it as PNG.
+// capture/image.h -- images as files: linear radiance as EXR, a view of it as PNG. A file is whole or absent:
+// disk full, or no permission, is a std::runtime_error that names it.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/exr_bytes.h"
 #include "trace/vec.h"
 
 namespace regather::capture {
@@ -25,16 +27,9 @@ inline double luminance(trace::Vec3 rgb) {
     return luminance(rgb.x, rgb.y, rgb.z);
 }
 
-/// 32-bit float EXR; written beside and renamed, so that no half image has this name. Throws
-/// std::runtime_error.
+/// 32-bit float EXR.
 void write_exr(const std::filesystem::path& path, const Image& image);
-
-/// One channel of an EXR that has several: "direct.R", "variance.Y".
-struct Channel {
-    std::string name;
-    std::vector<float> values;  ///< In row order.
-};
-/// The same for any channels; all have `width` x `height` values.
+/// The same for any channels ("direct.R", "variance.Y"); all have `width` x `height` values.
 void write_exr(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
                std::span<const Channel> channels);
 /// An image as three channels; `layer` is empty for the picture itself.
@@ -51,13 +46,10 @@ void write_png(const std::filesystem::path& path, const Image& image, float expo
 
 /// 8-bit sRGB pixels, three bytes each.
 void write_png(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
-               std::vector<std::uint8_t> rgb);
+               std::span<const std::uint8_t> rgb);
 
 /// Exposure that takes the mean luminance of the image to a middle tone (0.25 before the sRGB curve); 1 for a
 /// black image.
 float middle_exposure(const Image& image);
-
-/// The first three channels. Throws trace::DataError when the file is no RGB image.
-Image read_image(const std::filesystem::path& path);
 
 }  // namespace regather::capture

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "capture/glyphs.h"
 #include "capture/image_error.h"
+#include "capture/lettering.h"
 
 namespace regather::capture {
 namespace {
@@ -15,9 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 using Rgb = std::array<std::uint8_t, 3>;
 
-constexpr std::uint32_t least_panel = 256, margin = 10, letter_scale = 2, letter_width = 6 * letter_scale,
-                        letter_height = 8 * letter_scale, text_gap = 6, bar_width = 16, tick = 5,
-                        bar_letters = 6;
+constexpr std::uint32_t least_panel = 256, margin = 10, letter_size = 13, letter_height = 16, text_gap = 6,
+                        bar_width = 16, tick = 5, bar_text = 60;
 constexpr Rgb paper{255, 255, 255}, ink{32, 32, 32};
 
 Rgb shown(trace::Vec3 radiance, float exposure) {
@@ -41,18 +40,16 @@ public:
             for (std::uint32_t i = x; i < std::min(x + width, picture_.width); ++i)
                 picture_.pixels[std::size_t{j} * picture_.width + i] = colour;
     }
-    void write(std::uint32_t x, std::uint32_t y, std::string_view text) {
-        for (const char letter : text) {
-            for (const Glyph& glyph : glyphs) {
-                if (glyph.letter != letter) continue;
-                for (std::uint32_t row = 0; row < 8; ++row)
-                    for (std::uint32_t column = 0; column < 5; ++column)
-                        if ((glyph.rows[row] >> (4 - column) & 1) != 0)
-                            fill(x + column * letter_scale, y + row * letter_scale, letter_scale,
-                                 letter_scale, ink);
+    void write(std::uint32_t x, std::uint32_t y, std::string_view text, std::uint32_t most_width) {
+        const Lettering line = lettering(text, letter_size, most_width);
+        for (std::uint32_t j = 0; j < std::min(line.height, picture_.height - y); ++j)
+            for (std::uint32_t i = 0; i < std::min(line.width, picture_.width - x); ++i) {
+                const unsigned covered = line.ink[std::size_t{j} * line.width + i];
+                Rgb& pixel = picture_.pixels[std::size_t{y + j} * picture_.width + x + i];
+                for (std::size_t c = 0; c < 3; ++c)
+                    pixel[c] = static_cast<std::uint8_t>(
+                        (pixel[c] * (255 - covered) + ink[c] * covered + 127) / 255);
             }
-            x += letter_width;
-        }
     }
     template <class Colour>
     void panel(std::uint32_t x, std::uint32_t y, std::uint32_t columns, std::uint32_t rows,
@@ -115,10 +112,10 @@ Picture image_strip(const Image& image, const Image& reference, const StripText&
     const std::uint32_t panel = columns * scale, height = rows * scale,
                         top = margin + letter_height + text_gap;
     const std::uint32_t bar = 3 * (panel + margin) + margin;
-    Canvas canvas(bar + bar_width + tick + text_gap + bar_letters * letter_width + margin,
+    Canvas canvas(bar + bar_width + tick + text_gap + bar_text + margin,
                   top + std::max(height, 4 * letter_height) + margin);
     const auto title = [&](std::uint32_t x, const std::string& words) {
-        canvas.write(x, margin, std::string_view(words).substr(0, panel / letter_width));
+        canvas.write(x, margin, words, panel);
     };
     const std::uint32_t second = 2 * margin + panel, third = 3 * margin + 2 * panel;
     title(margin, text.image);
@@ -140,7 +137,7 @@ Picture image_strip(const Image& image, const Image& reference, const StripText&
     const std::string bound = fmt::format("{:.3g}%", 100 * static_cast<double>(range));
     const auto mark = [&](std::uint32_t y, std::uint32_t text_y, const std::string& label) {
         canvas.fill(bar + bar_width, y, tick, 1, ink);
-        canvas.write(bar + bar_width + tick + text_gap, text_y, label);
+        canvas.write(bar + bar_width + tick + text_gap, text_y, label, bar_text);
     };
     mark(top, top, "+" + bound);
     mark(top + height / 2, top + (height - letter_height) / 2, "0");
@@ -152,7 +149,7 @@ void write_strip(const fs::path& path, const Picture& picture) {
     std::vector<std::uint8_t> rgb;
     rgb.reserve(3 * picture.pixels.size());
     for (const auto& pixel : picture.pixels) rgb.insert(rgb.end(), pixel.begin(), pixel.end());
-    write_png(path, picture.width, picture.height, std::move(rgb));
+    write_png(path, picture.width, picture.height, rgb);
 }
 
 }  // namespace regather::capture

@@ -37,7 +37,7 @@ std::array<std::uint8_t, 3> false_colour(float error, float range);
 /// to +range in percent. trace::DataError as image_errors() throws it.
 Picture image_strip(const Image& image, const Image& reference, const StripText& text = {});
 
-/// Written beside and renamed. Throws std::runtime_error.
+/// As write_png().
 void write_strip(const std::filesystem::path& path, const Picture& picture);
 
 }  // namespace regather::capture

@@ -1,20 +1,11 @@
 #include "imports/texture_colour.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
-#include "trace/error.h"
-#include "trace/text.h"
+#include "imports/texture.h"
 
 namespace regather::imports {
-
-using trace::in_quotes;
 
 namespace {
 
@@ -30,44 +21,21 @@ std::array<double, 256> srgb_decoded() {
 }  // namespace
 
 trace::Vec3 mean_colour(std::span<const std::uint8_t> bytes, const std::string& name) {
-    const auto refuse = [&](std::string_view found, std::string_view expected) {
-        throw trace::DataError(fmt::format("{}: found {}, expected {}", name, found, expected));
-    };
-    const auto ending = [&](std::string_view text) { return name.ends_with(text); };
-    const char* format = ending(".jpg") || ending(".jpeg") ? "jpeg" : ending(".png") ? "png" : "targa";
-    OIIO::Filesystem::IOMemReader memory(const_cast<std::uint8_t*>(bytes.data()), bytes.size());
-    OIIO::ImageSpec wish, spec;
-    wish["oiio:UnassociatedAlpha"] = 1;
-    const auto image = OIIO::ImageInput::create(format);
-    if (!image || !image->supports("ioproxy")) refuse(format, "a format that OpenImageIO reads from memory");
-    image->set_ioproxy(&memory);
-    if (!image->open(name, spec, wish)) refuse(in_quotes(image->geterror()), "an undamaged image");
-    if (spec.width < 1 || spec.height < 1 || spec.width > 8192 || spec.height > 8192 || spec.depth > 1)
-        refuse(fmt::format("{} x {} texels", spec.width, spec.height), "8192 x 8192 at most");
-    if (spec.nchannels < 1 || spec.nchannels > 4)
-        refuse(fmt::format("{} channels", spec.nchannels), "1 to 4");
-    const auto channels = static_cast<std::size_t>(spec.nchannels);
-    const auto width = static_cast<std::size_t>(spec.width);
-    std::vector<std::uint8_t> row(width * static_cast<std::size_t>(spec.height) * channels);
-    if (!image->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, row.data()))
-        refuse(in_quotes(image->geterror()), "an undamaged image");
     static const std::array<double, 256> decoded = srgb_decoded();
-    const bool has_alpha = channels == 2 || channels == 4;
+    const Texture texture = read_texture(bytes, name);
     std::array<double, 3> sum{}, opaque_sum{};
     double weight = 0;
-    const std::size_t texels = row.size() / channels;
-    for (std::size_t i = 0; i < texels; ++i) {
-        const std::uint8_t* texel = &row[i * channels];
-        const double alpha = has_alpha ? texel[channels - 1] / 255.0 : 1;
+    for (const auto& texel : texture.texels) {
+        const double alpha = texel[3] / 255.0;
         for (std::size_t c = 0; c < 3; ++c) {
-            const double value = decoded[texel[channels >= 3 ? c : 0]];
+            const double value = decoded[texel[c]];
             sum[c] += alpha * value;
             opaque_sum[c] += value;
         }
         weight += alpha;
     }
-    if (weight <= 0)
-        sum = opaque_sum, weight = static_cast<double>(texels);  // An alpha channel that hides all.
+    if (weight <= 0)  // An alpha channel that hides all.
+        sum = opaque_sum, weight = static_cast<double>(texture.texels.size());
     return {static_cast<float>(sum[0] / weight), static_cast<float>(sum[1] / weight),
             static_cast<float>(sum[2] / weight)};
 }

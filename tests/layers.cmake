@@ -1,6 +1,6 @@
 # tests/layers.cmake -- which folder may include which: the flow of the pipeline, checked on every #include line.
 #   cmake -D SOURCE_DIR=. -P tests/layers.cmake
-# Fails with file, line and rule. bench/ and tests/ may include anything and nobody may include them.
+# Fails with file, line and rule, also where the table of docs/architecture.md says something else. bench/ and tests/ may include anything and nobody may include them.
 cmake_minimum_required(VERSION 3.25)
 cmake_path(ABSOLUTE_PATH SOURCE_DIR NORMALIZE)
 
@@ -59,10 +59,33 @@ foreach(folder IN LISTS layers)
     endforeach()
 endforeach()
 
+# The table of folders in docs/architecture.md says the same: a row for each, lowest first, and in its last column what it knows.
+file(READ ${SOURCE_DIR}/docs/architecture.md page)
+string(REGEX REPLACE "[];[]" "_" page "${page}")
+string(REGEX MATCHALL "\n\\| `[a-z]+/` \\|[^\n]*" rows "${page}")
+set(folders_of_page)
+foreach(row IN LISTS rows)
+    string(REGEX REPLACE "^\n\\| `([a-z]+)/`.*" "\\1" folder "${row}")
+    list(APPEND folders_of_page ${folder})
+    string(REGEX REPLACE ".*\\|([^|]*)\\|$" "\\1" column "${row}")
+    string(REGEX MATCHALL "[a-z]+" said "${column}")
+    if(column STREQUAL " nothing of ours ")
+        set(said)
+    endif()
+    if(NOT "${said}" STREQUAL "${${folder}_knows}")
+        message("docs/architecture.md: says that ${folder} may include '${said}', but cmake/layers.cmake '${${folder}_knows}'")
+        math(EXPR failures "${failures} + 1")
+    endif()
+endforeach()
+if(NOT "${folders_of_page}" STREQUAL "${layers}")
+    message("docs/architecture.md: has rows for '${folders_of_page}', but cmake/layers.cmake for '${layers}'")
+    math(EXPR failures "${failures} + 1")
+endif()
+
 if(files_read EQUAL 0)
     message(FATAL_ERROR "no source file found under '${SOURCE_DIR}'")
 endif()
 if(failures GREATER 0)
-    message(FATAL_ERROR "${failures} forbidden includes in ${files_read} files")
+    message(FATAL_ERROR "${failures} breaches of the rules in ${files_read} files")
 endif()
 message(STATUS "layers: ${files_read} files keep the rules")

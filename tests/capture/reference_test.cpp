@@ -9,6 +9,7 @@
 #include <string>
 
 #include "capture/capture.h"
+#include "tests/capture/picture.h"
 #include "tests/capture/small_scenes.h"
 #include "trace/error.h"
 
@@ -188,8 +189,8 @@ TEST_F(ReferenceTest, ImagesAreMeanAndVariance) {
     Reference reference(key);
     reference.add(tracer, 4);
     write_images(reference, folder);
-    EXPECT_EQ(read_image(folder / "reference.exr").pixels, reference.mean().pixels);
-    EXPECT_EQ(read_image(folder / "variance.exr").pixels, reference.variance().pixels);
+    EXPECT_EQ(read_exr(folder / "reference.exr").pixels, reference.mean().pixels);
+    EXPECT_EQ(read_exr(folder / "variance.exr").pixels, reference.variance().pixels);
     EXPECT_TRUE(fs::exists(folder / "reference.png"));
     EXPECT_GT(reference.mean_radiance(), 0);
 }
