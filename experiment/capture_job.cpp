@@ -115,9 +115,9 @@ CaptureResult run(const CaptureJob& job, const ProgressListener& progress) {
     scenes::Scene scene = scenes::load_scene(job.scene);
     capture::CaptureConfig config = job.options.config();
     if (job.reads) {
-        config.columns.direction = job.reads->direction;
-        config.columns.leaf_kd = job.reads->leaf_kd;
-        config.columns.leaf_bvh = job.reads->leaf_bvh;
+        config.columns.direction = job.reads->direction || job.reads->captured;
+        config.columns.leaf_kd = job.reads->leaf_kd || job.reads->captured;
+        config.columns.leaf_bvh = job.reads->leaf_bvh || job.reads->captured;
     }
     CaptureResult result;
     if (job.options.frames.empty()) {
