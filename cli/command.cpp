@@ -319,4 +319,12 @@ std::string Command::help() const {
     return app_->help();
 }
 
+std::vector<std::string> Command::options() const {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app_->get_options())
+        if (!option->get_lnames().empty() && option->get_items_expected_max() > 0)
+            names.push_back("--" + option->get_lnames().front());
+    return names;
+}
+
 }  // namespace regather::cli

@@ -96,6 +96,8 @@ public:
     bool parse(std::span<const std::string> words, const Console& console);
     void run(const Console& console) const { action_(console); }
     std::string help() const;
+    /// Names of the options that take a word, with their dashes.
+    std::vector<std::string> options() const;
 
 private:
     struct Pair {

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <span>
 #include <string_view>
@@ -102,6 +103,10 @@ int run(const Console& console) {
         return fail(console, bad_usage, error.what());
     } catch (const trace::DataError& error) {
         return fail(console, bad_data, error.what());
+    } catch (const std::filesystem::filesystem_error& error) {
+        const bool too_long = error.code() == std::errc::filename_too_long;
+        return fail(console, too_long ? bad_usage : run_failed,
+                    fmt::format("{}: {}", trace::shown(error.path1().string()), error.code().message()));
     } catch (const std::bad_alloc&) {
         return fail(console, run_failed, "found too little memory for this run, expected more");
     } catch (const std::exception& error) {

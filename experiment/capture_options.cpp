@@ -45,13 +45,13 @@ capture::CaptureConfig CaptureOptions::config() const {
         .seed = seed};
     config.photon = {.photons = photons, .seed = seed};
     config.gather = {.k = k,
-                     .radius = length(radius, "--radius"),
+                     .radius = length(radius, "radius"),
                      .filter = chosen<capture::Filter>(filter, capture::filter_names, "filter"),
                      .surface_check = surface_check};
     config.caustic = {
         .photons = caustic_photons,
         .k = caustic_k,
-        .radius = length(caustic_radius, "--caustic-radius"),
+        .radius = length(caustic_radius, "caustic_radius"),
         .filter = chosen<capture::Filter>(caustic_filter, capture::filter_names, "caustic_filter")};
     config.keep = {keep.begin(), keep.end()};
     tone_curve();
@@ -59,7 +59,7 @@ capture::CaptureConfig CaptureOptions::config() const {
     const std::shared_ptr<reorder::Ordering> ordering = reorder::make_ordering(gather_order);
     if (ordering->reads().leaf_kd || ordering->reads().leaf_bvh)
         throw trace::UsageError(fmt::format(
-            "--gather-order: found {}, expected an ordering that needs no leaf labels", gather_order));
+            "gather_order: found {}, expected an ordering that needs no leaf labels", gather_order));
     config.order = [ordering, w = width, h = height](const capture::Queries& queries) {
         const reorder::Workload work{.position = queries.position,
                                      .direction = queries.direction,

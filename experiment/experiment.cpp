@@ -9,10 +9,13 @@
 #include <set>
 
 #include "cachesim/cache_list.h"
+#include "experiment/capture_job.h"
+#include "experiment/frames.h"
 #include "experiment/keys.h"
 #include "experiment/measurement.h"
 #include "reorder/shared_library.h"
 #include "scenes/loader.h"
+#include "scenes/needs.h"
 #include "trace/error.h"
 #include "trace/file.h"
 #include "trace/size.h"
@@ -116,9 +119,16 @@ Experiment load_experiment(const std::filesystem::path& path) {
     // A scene file is named relative to the experiment that uses it.
     if (experiment.scene.ends_with(".json") && std::filesystem::path(experiment.scene).is_relative())
         experiment.scene = (path.parent_path() / experiment.scene).string();
-    at(in, "scene", [&] { return scenes::load_scene(experiment.scene); });
+    const scenes::Scene scene = at(in, "scene", [&] { return scenes::load_scene(experiment.scene); });
     if (in.has("capture")) experiment.capture = capture_options(root["capture"], path.string());
     at(in, "capture", [&] { return experiment.capture.config(); });
+    if (!experiment.capture.frames.empty())
+        at(in, "capture.frames", [&] { return parse_frames(experiment.capture.frames, frames_of(scene)); });
+    at(in, "capture.keep", [&] {
+        scenes::Needs needs = scenes::needs_of(scene);
+        needs.keep(experiment.capture.config().keep);
+        return needs;
+    });
     if (in.has("onchip")) {
         const std::vector<std::string> sizes = in.list("onchip", {});
         if (sizes.size() != 1) in.refuse("onchip", root["onchip"].dump(), "one size");

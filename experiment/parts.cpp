@@ -49,10 +49,13 @@ std::string cache_texts(std::span<const cachesim::CacheConfig> caches) {
     return text;
 }
 
+/// Each once, in the order of the trials.
 std::vector<cachesim::CacheConfig> all_caches(const Experiment& experiment) {
     std::vector<cachesim::CacheConfig> caches;
+    std::set<std::string> seen;
     for (const Trial& trial : experiment.trials)
-        caches.insert(caches.end(), trial.caches.begin(), trial.caches.end());
+        for (const cachesim::CacheConfig& cache : trial.caches)
+            if (seen.insert(cachesim::cache_text(cache)).second) caches.push_back(cache);
     return caches;
 }
 

@@ -37,7 +37,8 @@ void render(capture::Reference& reference, const scenes::Scene& scene, const Ref
                                      {.width = key.width, .height = key.height, .seed = key.seed});
     const bool by_samples = std::isinf(goal.seconds);
     const std::uint64_t pixels = reference.pixels.size();
-    double saved_at = reference.seconds, sample_seconds = 0;
+    // The first samples are saved at once: then there is something to go on from.
+    double saved_at = reference.samples == 0 ? -save_every_seconds : reference.seconds, sample_seconds = 0;
     bool unsaved = false;
     const auto tell = [&] {
         if (!progress) return;
