@@ -20,7 +20,7 @@ using Words = std::vector<std::string>;
     throw trace::UsageError(fmt::format("{}: found {}, expected {}", name, found, expected));
 }
 
-std::string quoted(std::string_view word) {
+std::string in_quotes(std::string_view word) {
     return fmt::format("'{}'", trace::shown(word));
 }
 
@@ -52,7 +52,7 @@ std::string in_words(const Real& range) {
 
 std::uint64_t whole(std::string_view name, std::string_view word, const Whole& range) {
     const auto value = number_in<std::uint64_t>(word);
-    if (!value || *value < range.least || *value > range.most) refuse(name, quoted(word), in_words(range));
+    if (!value || *value < range.least || *value > range.most) refuse(name, in_quotes(word), in_words(range));
     return *value;
 }
 
@@ -60,7 +60,7 @@ double real(std::string_view name, std::string_view word, const Real& range) {
     if (range.infinite && word == "inf") return std::numeric_limits<double>::infinity();
     const auto value = number_in<double>(word);
     if (!value || !std::isfinite(*value) || *value < range.least || (range.above && *value == range.least))
-        refuse(name, quoted(word), in_words(range));
+        refuse(name, in_quotes(word), in_words(range));
     return *value;
 }
 
@@ -83,6 +83,12 @@ std::string joined(const Words& words, const char* between) {
     std::string text;
     for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
     return text;
+}
+
+void refuse_repeated(const std::string& name, const Words& words) {
+    for (auto word = words.begin(); word != words.end(); ++word)
+        if (std::find(words.begin(), word, *word) != word)
+            refuse(name, fmt::format("{} twice", in_quotes(*word)), "each once");
 }
 
 /// An option of one word, which `take` is given.
@@ -109,6 +115,7 @@ CLI::Option* add_several(CLI::App& app, std::string_view names, std::string_view
         std::string(names),
         [name = long_name(names), take = std::move(take)](const Words& words) {
             for (const std::string& word : words) not_empty(name, word);
+            refuse_repeated(name, words);
             take(name, words);
             return true;
         },
@@ -121,12 +128,12 @@ CLI::Option* add_several(CLI::App& app, std::string_view names, std::string_view
 /// A word that nobody expected, with the nearest that somebody would have.
 std::string unexpected(const CLI::App& app, const std::string& word) {
     if (!word.starts_with('-') || word == "-")
-        return fmt::format("found {}, expected nothing more", quoted(word));
+        return fmt::format("found {}, expected nothing more", in_quotes(word));
     std::vector<std::string> known;
     for (const CLI::Option* option : app.get_options())
         for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
     const std::vector<std::string_view> names(known.begin(), known.end());
-    return fmt::format("found the unknown option {}, expected {}", quoted(word),
+    return fmt::format("found the unknown option {}, expected {}", in_quotes(word),
                        trace::alternatives(trace::nearest_words(word.substr(0, word.find('=')), names)));
 }
 
@@ -234,7 +241,7 @@ Command::Option Command::choice(std::string_view names, std::string& to, std::ve
         *app_, names, fmt::format("{}: {}", help, trace::listed(words)), "WORD", to,
         [&to, words](const std::string& name, const std::string& word) {
             if (std::find(words.begin(), words.end(), word) == words.end())
-                refuse(name, quoted(word),
+                refuse(name, in_quotes(word),
                        fmt::format("{} (known: {})", trace::alternatives(trace::nearest_words(word, words)),
                                    trace::listed(words)));
             to = word;
@@ -252,6 +259,7 @@ Command::Option Command::comma_list(std::string_view names, std::vector<std::str
                               [&to](const std::string& name, const Words& words) {
                                   to = split(words);
                                   for (const std::string& word : to) not_empty(name, word);
+                                  refuse_repeated(name, to);
                               }));
 }
 
@@ -263,6 +271,7 @@ Command::Option Command::comma_list(std::string_view names, std::vector<std::uin
     return Option(add_several(*app_, names, help, "N", joined(fallback, ","),
                               [&to, range](const std::string& name, const Words& words) {
                                   to.clear();
+                                  refuse_repeated(name, split(words));
                                   for (const std::string& word : split(words))
                                       to.push_back(static_cast<std::uint32_t>(whole(name, word, range)));
                               }));

@@ -85,10 +85,10 @@ public:
 
     void footer(std::string_view text);
     /// What the command does. `state` is kept: it holds the bound variables.
-    template <class State, class Run>
-    void action(std::shared_ptr<State> state, Run run) {
-        action_ = [state = std::move(state), run = std::move(run)](const Console& console) {
-            run(*state, console);
+    template <class State, class Work>
+    void action(std::shared_ptr<State> state, Work work) {
+        action_ = [state = std::move(state), work = std::move(work)](const Console& console) {
+            work(*state, console);
         };
     }
 

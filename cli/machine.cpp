@@ -7,8 +7,10 @@
 #include <array>
 #include <memory>
 
+#include "cachesim/cache_list.h"
 #include "cli/command.h"
 #include "cli/commands.h"
+#include "trace/error.h"
 
 namespace regather::cli {
 
@@ -139,9 +141,13 @@ void print_details(const std::string& name_or_path, const Console& console) {
 
 std::vector<Machine> load_machines(std::string_view list) {
     std::vector<Machine> machines;
-    for (std::size_t comma; (comma = list.find(',')) != list.npos; list.remove_prefix(comma + 1))
-        machines.push_back(cachesim::load_machine(list.substr(0, comma)));
-    machines.push_back(cachesim::load_machine(list));
+    for (const std::string_view name : cachesim::list_parts(list)) {
+        machines.push_back(cachesim::load_machine(name));
+        if (std::count_if(machines.begin(), machines.end(),
+                          [&](const Machine& one) { return one.name == machines.back().name; }) > 1)
+            throw trace::UsageError(
+                fmt::format("--machine: found {} twice, expected each machine once", machines.back().name));
+    }
     return machines;
 }
 

@@ -43,7 +43,7 @@ std::vector<experiment::Structure> parse_structures(const std::vector<std::strin
         if (!structure)
             throw trace::UsageError(
                 fmt::format("--structure: found '{}', expected left-balanced or bucketed", word));
-        if (std::find(parsed.begin(), parsed.end(), *structure) == parsed.end()) parsed.push_back(*structure);
+        parsed.push_back(*structure);
     }
     return parsed;
 }

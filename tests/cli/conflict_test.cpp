@@ -137,6 +137,20 @@ TEST(Words, NoLibrarysWordsAndNoLongNumbersReachAUser) {
     expect_refused(bad_usage, {"capture", "--tone", "loud"}, {"--tone", "'loud'", "exponential"});
 }
 
+TEST(Words, TheSameTwiceInAListIsRefused) {
+    for (const auto& [words, parts] : std::vector<std::pair<Words, Words>>{
+             {{"replay", "none", "--order", "naive", "naive"}, {"--order", "'naive' twice"}},
+             {{"replay", "none", "--order", "hilbert", "hilbert:bits=16"}, {"hilbert", "twice"}},
+             {{"replay", "none", "--order", "naive", "--cache", "1K:64:1", "1024:64:1"}, {"1024:64:1 twice"}},
+             {{"replay", "none", "--order", "naive", "--machine", "paper-128k,paper-128k"},
+              {"paper-128k twice"}},
+             {{"race", "none", "--structure", "bucketed,bucketed"}, {"--structure", "'bucketed' twice"}},
+             {{"sampling", "none", "--rates", "2,4,2"}, {"--rates", "'2' twice"}},
+             {{"chart", "a.csv", "a.csv", "-o", "none"}, {"CSV", "'a.csv' twice"}},
+             {{"stability", "--only", "maps,maps"}, {"--only", "'maps' twice"}}})
+        expect_refused(bad_usage, words, parts);
+}
+
 TEST(Words, AnUnlimitedRadiusMayBeWrittenInf) {
     const Scratch scratch;
     const auto radius = [&](const char* word) {
