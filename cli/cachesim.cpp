@@ -2,27 +2,24 @@
 // over the file.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-#include <cerrno>
-#include <charconv>
-#include <cstdio>
-#include <cstring>
+#include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "cachesim/address_trace.h"
+#include "cachesim/cache_list.h"
 #include "cachesim/family_sweep.h"
 #include "cachesim/policy_sweep.h"
+#include "cli/command.h"
 #include "cli/commands.h"
 #include "cli/machine.h"
 #include "cli/progress.h"
 #include "trace/error.h"
 #include "trace/file.h"
-#include "trace/size.h"
 
 namespace regather::cli {
 
@@ -39,56 +36,52 @@ struct Options {
     bool force = false;
 };
 
-std::vector<std::string_view> split(std::string_view list) {
-    std::vector<std::string_view> parts;
-    for (std::size_t comma; (comma = list.find(',')) != list.npos; list.remove_prefix(comma + 1))
-        parts.push_back(list.substr(0, comma));
-    parts.push_back(list);
-    return parts;
-}
-
-std::uint32_t parse_line(std::string_view text) {
-    const std::uint64_t bytes = trace::parse_size(text);
-    if (bytes > std::numeric_limits<std::uint32_t>::max())
-        throw trace::UsageError(fmt::format("--line: found {}, expected less than 4G", text));
-    return static_cast<std::uint32_t>(bytes);
-}
-
-std::uint32_t parse_ways(std::string_view text) {
-    if (text == "full") return cachesim::fully_associative;
-    std::uint32_t ways = 0;
-    const char* const last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), last, ways);
-    if (error != std::errc{} || end != last || ways == 0)
-        throw trace::UsageError(
-            fmt::format("--ways: found '{}', expected a number from 1 up, or full", text));
-    return ways;
-}
-
-std::vector<cachesim::PolicyConfig> combinations(const Options& options) {
+/// Every combination, sizes outermost, policies innermost. One that is not possible is left out and said;
+/// when none is possible, nothing can be simulated.
+std::vector<cachesim::PolicyConfig> combinations(const Options& options, const Console& console) {
     for (const auto& [name, list] :
          {std::pair{"--size", &options.sizes}, {"--line", &options.lines}, {"--ways", &options.ways}})
         if (list->empty())
             throw trace::UsageError(fmt::format("{}: found none, expected one (or --machine)", name));
     std::vector<cachesim::PolicyConfig> configs;
-    for (const std::string_view size : split(options.sizes))
-        for (const std::string_view line : split(options.lines))
-            for (const std::string_view ways : split(options.ways))
-                for (const std::string_view policy : split(options.policies)) {
-                    configs.push_back({{trace::parse_size(size), parse_line(line), parse_ways(ways)},
-                                       cachesim::parse_policy(policy),
-                                       cachesim::parse_write_policy(options.write),
-                                       cachesim::parse_write_miss(options.write_miss),
-                                       cachesim::parse_set_index(options.index),
-                                       options.seed});
-                    try {
-                        check(configs.back());
-                    } catch (const trace::UsageError& error) {
-                        throw trace::UsageError(fmt::format("--size {} --line {} --ways {} --policy {}: {}",
-                                                            size, line, ways, policy, error.what()));
-                    }
-                }
+    std::vector<std::string> impossible;
+    std::set<std::string> seen;
+    for (const cachesim::CacheConfig& geometry :
+         cachesim::multiplied_out(options.sizes, options.lines, options.ways))
+        for (const std::string_view policy : cachesim::list_parts(options.policies)) {
+            const cachesim::PolicyConfig config{geometry,
+                                                cachesim::parse_policy(policy),
+                                                cachesim::parse_write_policy(options.write),
+                                                cachesim::parse_write_miss(options.write_miss),
+                                                cachesim::parse_set_index(options.index),
+                                                options.seed};
+            const std::string name =
+                fmt::format("--size {} --line {} --ways {} --policy {}", geometry.size_bytes,
+                            geometry.line_bytes, cachesim::ways_text(geometry.ways), policy);
+            if (!seen.insert(name).second)
+                throw trace::UsageError(fmt::format("{}: found twice, expected each cache once", name));
+            try {
+                check(config);
+                configs.push_back(config);
+            } catch (const trace::UsageError& error) {
+                impossible.push_back(fmt::format("{}: {}", name, error.what()));
+            }
+        }
+    if (configs.empty()) throw trace::UsageError(impossible.front());
+    for (const std::string& text : impossible) fmt::print(console.err, "regather: left out {}\n", text);
     return configs;
+}
+
+/// What the values tell: options that the others leave without effect.
+void check_effects(const Command& command, const Options& options) {
+    const auto asks_for = [&](std::string_view policy) {
+        const auto all = cachesim::list_parts(options.policies);
+        return std::find(all.begin(), all.end(), policy) != all.end();
+    };
+    for (const auto& [name, policy] : {std::pair{"--seed", "random"}, {"--opt-limit", "opt"}})
+        if (command.given(name) && !asks_for(policy))
+            throw trace::UsageError(
+                fmt::format("{}: found without --policy {}, expected both or none", name, policy));
 }
 
 constexpr std::string_view header =
@@ -101,8 +94,7 @@ std::string table(std::span<const cachesim::PolicyRow> results) {
         const auto& [size_bytes, line_bytes, ways] = config.geometry;
         rows += fmt::format(
             "{},{},{},{},{},{},{},{},{},{},{}\n", name_of(config.policy), size_bytes, line_bytes,
-            ways == cachesim::fully_associative ? "full" : fmt::format("{}", ways), stats.accesses,
-            stats.hits(), stats.misses,
+            cachesim::ways_text(ways), stats.accesses, stats.hits(), stats.misses,
             classes ? fmt::format("{},{},{}", classes->compulsory, classes->capacity, classes->conflict)
                     : ",,",
             stats.writebacks, stats.passed_writes, stats.traffic_bytes(line_bytes));
@@ -111,12 +103,13 @@ std::string table(std::span<const cachesim::PolicyRow> results) {
 }
 
 /// Every LRU cache of the line sizes. What a trace with writes writes back is not told.
-std::string all_lru(const Options& options) {
+std::string all_lru(const Options& options, const Console& console) {
     std::vector<std::uint32_t> line_sizes;
     if (options.lines.empty()) throw trace::UsageError("--line: found none, expected one");
-    for (const std::string_view line : split(options.lines)) line_sizes.push_back(parse_line(line));
+    for (const std::string_view line : cachesim::list_parts(options.lines))
+        line_sizes.push_back(cachesim::parse_line_bytes(line));
     std::string_view ways = options.ways.empty() ? "16" : std::string_view(options.ways);
-    const std::uint32_t most_ways = parse_ways(ways);
+    const std::uint32_t most_ways = cachesim::parse_ways(ways);
     if (most_ways == cachesim::fully_associative || most_ways > 32)
         throw trace::UsageError(
             fmt::format("--ways: found '{}' beside --all-lru, expected the most ways, 1 to 32", ways));
@@ -125,7 +118,7 @@ std::string all_lru(const Options& options) {
     cachesim::FamilySweep sweep(line_sizes, most_ways, !options.no_3c);
     bool writes = false;
     {
-        Progress progress;
+        Progress progress(console);
         for (auto records = trace.next(); !records.empty(); records = trace.next()) {
             sweep.access(records);
             for (const cachesim::ByteAccess& access : records)
@@ -138,9 +131,8 @@ std::string all_lru(const Options& options) {
     for (const cachesim::FamilyRow& row : sweep.rows()) {
         const auto& [size_bytes, line_bytes, row_ways] = row.config;
         text += fmt::format(
-            "lru,{},{},{},{},{},{},{},{}\n", size_bytes, line_bytes,
-            row_ways == cachesim::fully_associative ? "full" : fmt::format("{}", row_ways), row.accesses,
-            row.accesses - row.misses, row.misses,
+            "lru,{},{},{},{},{},{},{},{}\n", size_bytes, line_bytes, cachesim::ways_text(row_ways),
+            row.accesses, row.accesses - row.misses, row.misses,
             options.no_3c ? ",," : fmt::format("{},{},{}", row.compulsory, row.capacity, row.conflict),
             writes ? ",," : fmt::format("0,0,{}", row.misses * line_bytes));
     }
@@ -148,10 +140,11 @@ std::string all_lru(const Options& options) {
 }
 
 std::vector<cachesim::PolicyRow> simulate(const Options& options,
-                                          std::span<const cachesim::PolicyConfig> configs) {
+                                          std::span<const cachesim::PolicyConfig> configs,
+                                          const Console& console) {
     cachesim::AddressTrace trace(options.files);
     cachesim::PolicySweep sweep(configs, {!options.no_3c, options.opt_limit});
-    Progress progress;
+    Progress progress(console);
     for (auto records = trace.next(); !records.empty(); records = trace.next()) {
         sweep.access(records);
         const auto [done, total, unit] = trace.position();
@@ -162,86 +155,68 @@ std::vector<cachesim::PolicyRow> simulate(const Options& options,
     });
 }
 
-void write_all(std::FILE* file, std::string_view text, const std::string& name) {
-    if (std::fwrite(text.data(), 1, text.size(), file) != text.size() || std::fflush(file) != 0)
-        throw std::runtime_error(fmt::format("{}: cannot write: {}", name, std::strerror(errno)));
-}
-
-void run(const Options& options) {
+void run(const Options& options, const Console& console) {
     std::vector<cachesim::Machine> machines;
     std::vector<cachesim::PolicyConfig> configs;
     if (!options.machines.empty())
         machines = load_machines(options.machines);
     else if (!options.all_lru)
-        configs = combinations(options);
+        configs = combinations(options, console);
     if (!options.csv.empty() && !options.force && std::filesystem::exists(options.csv))
         throw trace::UsageError(fmt::format("--csv {}: found a file, expected none (--force overwrites it)",
                                             options.csv.string()));
 
-    const std::string rows = !machines.empty() ? run_machines(machines, options.files)
-                             : options.all_lru ? all_lru(options)
-                                               : table(simulate(options, configs));
+    const std::string rows = !machines.empty()
+                                 ? run_machines(machines, options.files, Progress(console).listener())
+                             : options.all_lru ? all_lru(options, console)
+                                               : table(simulate(options, configs, console));
     if (options.csv.empty())
-        write_all(stdout, rows, "stdout");
+        console.print("{}", rows);
     else
         trace::write_whole(options.csv, rows);
 }
 
 }  // namespace
 
-void add_cachesim(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("cachesim", "Simulate caches on an address trace of your own");
+void add_cachesim(Command& command) {
     auto options = std::make_shared<Options>();
     command
-        ->add_option(
+        .argument(
             "ADDRESSES", options->files.addresses,
-            "A .npy of uint64 byte addresses, or Dinero din text (label and hexadecimal address a line)")
-        ->required();
-    CLI::Option* const sizes =
-        command->add_option("--size", options->sizes, "Cache sizes in bytes: 4096, 16K, 1M");
-    CLI::Option* const lines =
-        command->add_option("--line", options->lines, "Line sizes in bytes, powers of two");
-    CLI::Option* const ways =
-        command->add_option("--ways", options->ways, "Ways: 1 is direct mapped, full is fully associative");
-    command
-        ->add_option("--machine", options->machines,
-                     "In place of the three: memory systems, by name (see regather machines) or file")
-        ->excludes(sizes)
-        ->excludes(lines)
-        ->excludes(ways);
-    command
-        ->add_option("--policy", options->policies, "What is replaced: lru, fifo, plru, srrip, random, opt")
-        ->capture_default_str();
-    command->add_option("--write", options->write, "back: dirty lines are written back; through: every write")
-        ->capture_default_str();
-    command
-        ->add_option("--write-miss", options->write_miss,
-                     "allocate: fetches the line; no-allocate: the write goes past the cache")
-        ->capture_default_str();
-    command
-        ->add_option("--index", options->index,
-                     "Set of a line: modulo, or hashed (all bits of its number, XORed)")
-        ->capture_default_str();
-    command
-        ->add_flag("--all-lru", options->all_lru,
-                   "In place of --size: every LRU cache of the lines, 1 to 65536 sets of 1 to 16 (or --ways, "
-                   "up to 32) "
-                   "ways, and fully associative ones, all from one pass")
-        ->excludes(sizes);
-    command->add_option("--seed", options->seed, "Of the policy random")->capture_default_str();
-    command->add_flag("--no-3c", options->no_3c,
-                      "Leave compulsory, capacity and conflict empty: lru is several times faster");
-    command
-        ->add_option("--opt-limit", options->opt_limit,
-                     "Most line accesses kept in memory for opt, 8 bytes each, for each line size")
-        ->capture_default_str();
-    command->add_option("--csv", options->csv, "Write the table here; without it, to stdout");
-    command->add_option("--sizes", options->files.sizes,
-                        "Bytes of each access: .npy of uint8, uint32 or uint64 (default: 1 each)");
-    command->add_option("--writes", options->files.writes,
-                        "What each access is: .npy of uint8 or bool, 0 read, 1 write (default: all read)");
-    command->add_flag("--force", options->force, "Overwrite the CSV file");
-    command->footer(
+            "a .npy of uint64 byte addresses, or Dinero din text (label and hexadecimal address a line)")
+        .required();
+    command.option("--size", options->sizes, "cache sizes in bytes: 4096, 16K, 1M");
+    command.option("--line", options->lines, "line sizes in bytes, powers of two");
+    command.option("--ways", options->ways, "ways: 1 is direct mapped, full is fully associative");
+    command.option("--machine", options->machines,
+                   "in place of the three: memory systems, by name (see regather machines) or file");
+    command.option("--policy", options->policies, "what is replaced: lru, fifo, plru, srrip, random, opt");
+    command.option("--write", options->write, "back: dirty lines are written back; through: every write");
+    command.option("--write-miss", options->write_miss,
+                   "allocate: fetches the line; no-allocate: the write goes past the cache");
+    command.option("--index", options->index,
+                   "set of a line: modulo, or hashed (all bits of its number, XORed)");
+    command.flag(
+        "--all-lru", options->all_lru,
+        "in place of --size: every LRU cache of the lines, 1 to 65536 sets of 1 to 16 (or --ways, up to 32) "
+        "ways, and fully associative ones, all from one pass");
+    command.option("--seed", options->seed, {}, "of the policy random");
+    command.flag("--no-3c", options->no_3c,
+                 "leave compulsory, capacity and conflict empty: lru is several times faster");
+    command.option("--opt-limit", options->opt_limit, {},
+                   "most line accesses kept in memory for opt, 8 bytes each, for each line size");
+    command.option("--csv", options->csv, "write the table here; without it, to stdout");
+    command.option("--sizes", options->files.sizes,
+                   "bytes of each access: .npy of uint8, uint32 or uint64 (default: 1 each)");
+    command.option("--writes", options->files.writes,
+                   "what each access is: .npy of uint8 or bool, 0 read, 1 write (default: all read)");
+    command.flag("--force", options->force, "overwrite the CSV file");
+    command.conflict("--machine", {"--size", "--line", "--ways", "--policy", "--write", "--write-miss",
+                                   "--index", "--all-lru", "--seed", "--no-3c", "--opt-limit"});
+    command.conflict("--all-lru",
+                     {"--size", "--policy", "--write", "--write-miss", "--index", "--seed", "--opt-limit"});
+    command.needs("--force", {"--csv"});
+    command.footer(
         "Lists (of sizes, lines, ways and policies) are separated by commas; every combination is a row, all "
         "from\n"
         "one pass over the trace.\n"
@@ -251,7 +226,10 @@ void add_cachesim(CLI::App& app) {
         "  regather cachesim program.din --size 32K --line 64 --ways 8 --policy lru,plru,opt --write "
         "through\n"
         "  regather cachesim addresses.npy --machine paper-128k,gpu-a100 --csv levels.csv");
-    command->callback([options] { run(*options); });
+    command.action(options, [&command](const Options& asked, const Console& console) {
+        check_effects(command, asked);
+        run(asked, console);
+    });
 }
 
 }  // namespace regather::cli

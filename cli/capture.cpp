@@ -1,44 +1,53 @@
 // regather capture -- renders a scene, writes the image and the trace.
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
+#include "cli/capture_options.h"
 #include "cli/commands.h"
+#include "cli/interruption.h"
 #include "cli/progress.h"
 #include "experiment/capture_job.h"
-#include "experiment/capture_options.h"
 
 namespace regather::cli {
+namespace {
 
-void add_capture(CLI::App& app) {
-    struct Options {
-        std::string scene, image;
-        std::filesystem::path folder;
-        experiment::CaptureOptions capture;
-        bool force = false;
-    };
+struct Options {
+    experiment::CaptureJob job;
+};
+
+void run(const Options& options, const Console& console) {
+    experiment::CaptureResult result;
+    const Interruption interruption;
+    try {
+        Progress progress(console);
+        result = experiment::run(options.job, interruption.ending(progress.listener()));
+    } catch (const Interrupted& interrupted) {
+        throw Interrupted(
+            interrupted.signal,
+            fmt::format("{}: interrupted: {}; the same command goes on", options.job.folder.string(),
+                        options.job.options.frames.empty() ? "nothing is finished yet"
+                                                           : "finished frames are there"));
+    }
+    console.print("{}", result.report);
+}
+
+}  // namespace
+
+void add_capture(Command& command) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("capture", "render a scene; write its image and its trace");
-    command->add_option("scene", options->scene, "an embedded scene's name or a scene file")->required();
-    command->add_option("-o,--output", options->folder, "folder for image.exr, image.png and trace/")
-        ->required();
-    options->capture.add_to(*command);
-    command->add_flag("--force", options->force, "overwrite a finished capture");
-    command->footer(
+    experiment::CaptureJob& job = options->job;
+    command.argument("scene", job.scene, "an embedded scene's name or a scene file").required();
+    command.option("-o,--output", job.folder, "folder for image.exr, image.png and trace/").required();
+    add_capture_options(command, job.options);
+    command.flag("--force", job.force, "overwrite a finished capture");
+    command.footer(
+        "SIGINT (Ctrl-C) and SIGTERM leave the finished frames; the same command goes on from there.\n"
         "Examples:\n"
         "  regather capture room -o out/room --width 128 --height 128 --photons 100000\n"
         "  regather capture my_scene.json -o out/mine --k 50 --radius 0.3");
-    command->callback([options] {
-        const experiment::CaptureJob job{
-            options->scene, options->capture, {}, options->folder, options->force};
-        experiment::CaptureResult result;
-        {
-            Progress progress;
-            result = experiment::run(job, progress.listener());
-        }
-        fmt::print("{}", result.report);
+    command.action(options, [&command](const Options& asked, const Console& console) {
+        check_capture_options(command, asked.job.options);
+        run(asked, console);
     });
 }
 

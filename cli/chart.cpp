@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -9,6 +8,7 @@
 
 #include "charts/accuracy.h"
 #include "charts/chart.h"
+#include "cli/command.h"
 #include "cli/commands.h"
 #include "results/csv.h"
 #include "trace/error.h"
@@ -69,7 +69,7 @@ void refuse_to_overwrite(const Request& request, std::span<const charts::ChartKi
                 throw trace::UsageError(fmt::format("{} exists; --force replaces it", file.string()));
 }
 
-void run(const Request& request) {
+void run(const Request& request, const Console& console) {
     charts::ChartOptions options;
     options.tile = request.tile;
     options.bins = request.bins;
@@ -86,13 +86,13 @@ void run(const Request& request) {
     bool any = false;
     std::string skipped;
     for (const auto& drawn : charts::write_charts(request.folder, rows, request.kinds, options)) {
-        for (const auto& file : drawn.files) fmt::print("{}\n", file.string());
+        for (const auto& file : drawn.files) console.print("{}\n", file.string());
         any |= !drawn.files.empty();
         if (drawn.kind == "sampling-error" && !drawn.files.empty())
-            fmt::print("{}", charts::accuracy_table(rows.sampling));
+            console.print("{}", charts::accuracy_table(rows.sampling));
         if (drawn.skipped.empty()) continue;
         const std::string line = fmt::format("{}: not drawn: {}", drawn.kind, drawn.skipped);
-        fmt::print("{}\n", line);
+        console.print("{}\n", line);
         if (skipped.empty()) skipped = line;
     }
     // What was asked for by name must be there; of "every kind that applies" at least one.
@@ -112,25 +112,19 @@ std::string footer() {
 
 }  // namespace
 
-void add_chart(CLI::App& app) {
+void add_chart(Command& command) {
     auto request = std::make_shared<Request>();
-    CLI::App* chart = app.add_subcommand("chart", "Draws charts (SVG and PNG) from CSV rows");
-    chart->add_option("CSV", request->csv, "Files of rows, taken together; the header tells the kind of each")
-        ->required();
-    chart->add_option("-o,--output", request->folder, "Folder for the charts, made when missing")->required();
-    chart->add_option("--kind", request->kinds, "Which charts; without it, each that the rows allow")
-        ->delimiter(',');
-    chart->add_option("--cache", request->cache,
-                      "SIZE:LINE:WAYS of the rows to draw, as 128K:128:8; without it, the commonest");
-    chart->add_option("--tile", request->tile, "Tile edge [pixels] where it is not the axis")
-        ->capture_default_str()
-        ->check(CLI::PositiveNumber);
-    chart->add_option("--bins", request->bins, "Direction bins (n of n x n) where they are not the axis")
-        ->capture_default_str()
-        ->check(CLI::PositiveNumber);
-    chart->add_flag("--force", request->force, "Replace charts that exist");
-    chart->footer(footer());
-    chart->callback([request] { run(*request); });
+    command.arguments("CSV", request->csv, "files of rows, taken together; the header tells the kind of each")
+        .required();
+    command.option("-o,--output", request->folder, "folder for the charts, made when missing").required();
+    command.comma_list("--kind", request->kinds, "which charts; without it, each that the rows allow");
+    command.option("--cache", request->cache,
+                   "SIZE:LINE:WAYS of the rows to draw, as 128K:128:8; without it, the commonest");
+    command.option("--tile", request->tile, {1}, "tile edge [pixels] where it is not the axis");
+    command.option("--bins", request->bins, {1}, "direction bins (n of n x n) where they are not the axis");
+    command.flag("--force", request->force, "replace charts that exist");
+    command.footer(footer());
+    command.action(request, run);
 }
 
 }  // namespace regather::cli

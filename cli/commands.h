@@ -1,30 +1,39 @@
-// cli/commands.h -- the subcommands of `regather`, one file each. Each function adds its subcommand to `app`;
-// the callback does the work and throws trace::UsageError (exit 2), trace::DataError (exit 3) or
-// std::exception (exit 1).
+// cli/commands.h -- the subcommands of `regather`, in one table; one file each. `add` says what the command
+// takes and does; what it does throws trace::UsageError (exit 2), trace::DataError (exit 3) or std::exception
+// (exit 1).
 #pragma once
-
-namespace CLI {
-class App;
-}
+#include <span>
+#include <string_view>
 
 namespace regather::cli {
 
-void add_scenes(CLI::App& app);
-void add_import(CLI::App& app);
-void add_capture(CLI::App& app);
-void add_reference(CLI::App& app);
-void add_walk(CLI::App& app);
-void add_replay(CLI::App& app);
-void add_detail(CLI::App& app);
-void add_heatmap(CLI::App& app);
-void add_race(CLI::App& app);
-void add_sampling(CLI::App& app);
-void add_cachesim(CLI::App& app);
-void add_machines(CLI::App& app);
-void add_chart(CLI::App& app);
-void add_converge(CLI::App& app);
-void add_stability(CLI::App& app);
-void add_run(CLI::App& app);
-void add_info(CLI::App& app);
+class Command;
+
+struct Subcommand {
+    std::string_view name;
+    std::string_view summary;  ///< One line of `regather --help`.
+    void (*add)(Command& command);
+};
+
+/// In the order of `regather --help`: the order of the work.
+std::span<const Subcommand> subcommands();
+
+void add_scenes(Command& command);
+void add_import(Command& command);
+void add_capture(Command& command);
+void add_reference(Command& command);
+void add_walk(Command& command);
+void add_replay(Command& command);
+void add_detail(Command& command);
+void add_heatmap(Command& command);
+void add_race(Command& command);
+void add_sampling(Command& command);
+void add_cachesim(Command& command);
+void add_machines(Command& command);
+void add_chart(Command& command);
+void add_converge(Command& command);
+void add_stability(Command& command);
+void add_run(Command& command);
+void add_info(Command& command);
 
 }  // namespace regather::cli

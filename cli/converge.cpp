@@ -2,220 +2,90 @@
 // against a reference.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 
-#include "capture/image_strip.h"
-#include "capture/reference.h"
 #include "charts/chart.h"
 #include "charts/convergence.h"
+#include "cli/command.h"
 #include "cli/commands.h"
+#include "cli/interruption.h"
 #include "cli/progress.h"
 #include "cli/version.h"
-#include "results/csv.h"
 #include "results/provenance.h"
-#include "scenes/camera_path.h"
-#include "scenes/loader.h"
-#include "scenes/needs.h"
-#include "study/convergence.h"
-#include "trace/error.h"
-#include "trace/file.h"
+#include "study/convergence_job.h"
 
 namespace regather::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr double reference_share = 0.4;  // of the time, when there is none yet
-
-struct Options {
-    std::string scene;
-    fs::path folder, reference, ladder;
-    double seconds = 120;
-    std::optional<std::uint32_t> width, height, frame;
-    std::uint32_t seeds = 4, shadow_rays = 16;
-    bool force = false;
-};
-
-/// The given one, or the folder's own, rendered when there is none.
-capture::Reference reference_of(const scenes::Scene& scene, const Options& options) {
-    const fs::path folder = options.reference.empty() ? options.folder / "reference" : options.reference;
-    const std::uint32_t width = options.width.value_or(64), height = options.height.value_or(width);
-    if (!options.reference.empty() || capture::holds_reference(folder)) {
-        capture::Reference found = capture::load_reference(folder);
-        if (found.key.scene_checksum != capture::checksum(scene))
-            throw trace::UsageError(
-                fmt::format("{}: found a reference of another scene or camera ({}), expected one of {}",
-                            folder.string(), found.key.scene, scene.name));
-        if ((options.width && *options.width != found.key.width) ||
-            ((options.width || options.height) && height != found.key.height))
-            throw trace::UsageError(
-                fmt::format("{}: found a reference of {} x {} pixels, expected {} x {} as asked for",
-                            folder.string(), found.key.width, found.key.height, width, height));
-        if (found.samples < 2)
-            throw trace::UsageError(fmt::format(
-                "{}: found {} samples a pixel, expected at least 2, to know the reference's error",
-                folder.string(), found.samples));
-        return found;
+study::Converged measure(const study::ConvergenceJob& job, const Console& console) {
+    const Interruption interruption;
+    std::size_t finished = 0;
+    try {
+        Progress progress(console);
+        return study::run(job, interruption.ending(progress.listener()), [&](const study::Converged& so_far) {
+            finished = so_far.rows.size();
+            results::write_provenance(
+                so_far.csv, provenance(console, ""),
+                nlohmann::json{{"reference_samples", so_far.reference.samples},
+                               {"reference_rmse", so_far.reference_rmse},
+                               {"scene_checksum", so_far.reference.key.scene_checksum}});
+        });
+    } catch (const Interrupted& interrupted) {
+        throw Interrupted(
+            interrupted.signal,
+            fmt::format("{}: interrupted: the reference's samples and {} measured settings are there; the "
+                        "same command goes on",
+                        job.folder.string(), finished));
     }
-    capture::Reference reference({scene.name, capture::checksum(scene), width, height, 1});
-    const capture::RayCaster caster(scene);
-    const capture::LightSampler lights(scene);
-    const capture::PathTracer tracer(scene, caster, lights, {.width = width, .height = height, .seed = 1});
-    const double until = reference_share * options.seconds;
-    Progress progress;
-    for (std::uint32_t run = 2; reference.samples < 2 || reference.seconds < until;) {
-        reference.add(tracer, run);
-        progress.update("path tracing the reference", "ms",
-                        static_cast<std::uint64_t>(1000 * std::min(reference.seconds, until)),
-                        static_cast<std::uint64_t>(1000 * until));
-        const double each = reference.seconds / reference.samples;
-        run = static_cast<std::uint32_t>(
-            std::clamp(std::min(1.0, until - reference.seconds) / std::max(each, 1e-6), 1.0, 65536.0));
-    }
-    capture::save(reference, folder);
-    capture::write_images(reference, folder);
-    return reference;
 }
 
-std::vector<study::Setting> ladder_of(const scenes::Scene& scene, const Options& options) {
-    if (!options.ladder.empty())
-        return study::parse_ladder(trace::read_file(options.ladder), options.ladder.string());
-    const trace::Bounds3 box = scene.bounds();
-    return study::default_ladder(static_cast<double>(trace::length(box.max - box.min)),
-                                 capture::has_caustic_map(scene, capture::CaptureConfig()));
-}
-
-std::string strip_title(const study::Setting& setting) {
-    const bool direct = setting.mode == capture::Visualisation::direct;
-    return fmt::format("{}n={} k={}", direct ? "" : fmt::format("rays={} ", setting.gather_rays),
-                       setting.photons, setting.k);
-}
-
-/// Strips of the quickest and of the slowest setting of each ladder; settings come in rising cost.
-void write_strips(const fs::path& folder, const study::Setting& setting, const capture::Image& image,
-                  const capture::Image& reference) {
-    fs::create_directories(folder);
-    const capture::Picture strip =
-        capture::image_strip(image, reference, {strip_title(setting), "reference"});
-    const fs::path quickest = folder / fmt::format("{}-quickest.png", setting.ladder);
-    if (!fs::exists(quickest)) capture::write_strip(quickest, strip);
-    capture::write_strip(folder / fmt::format("{}-slowest.png", setting.ladder), strip);
-}
-
-std::vector<results::ConvergenceRow> known_rows(const fs::path& csv, const study::Convergence& convergence,
-                                                bool force) {
-    if (force || !fs::exists(csv)) return {};
-    const auto rows = results::read_csv<results::ConvergenceRow>(csv);
-    for (const results::ConvergenceRow& row : rows)
-        if (!convergence.belongs(row))
-            throw trace::UsageError(
-                fmt::format("{}: holds rows of another scene, reference, size, number of seeds or shadow "
-                            "rays; give another folder, or "
-                            "--force to begin again",
-                            csv.string()));
-    return rows;
-}
-
-void run(const Options& options) {
-    if (!(options.seconds > 0))
-        throw trace::UsageError(fmt::format("--seconds: found {}, expected more than 0", options.seconds));
-    scenes::Scene scene = scenes::load_scene(options.scene);
-    if (options.frame) scene.camera = scenes::camera_at(scene, *options.frame);
-    const std::vector<study::Setting> ladder = ladder_of(scene, options);
-    fs::create_directories(options.folder);
-    const capture::Reference reference = reference_of(scene, options);
-    const double left = options.reference.empty() ? options.seconds * (1 - reference_share) : options.seconds;
-
-    study::ConvergenceConfig config;
-    config.width = reference.key.width;
-    config.height = reference.key.height;
-    config.seeds = options.seeds;
-    config.shadow_rays = options.shadow_rays;
-    const study::Convergence convergence(scene, study::truth_of(reference), config);
-    const fs::path csv = options.folder / "converge.csv";
-    std::vector<results::ConvergenceRow> rows = known_rows(csv, convergence, options.force);
-    const std::vector<results::ConvergenceRow> known = rows;
-    const nlohmann::json of{{"reference_samples", reference.samples},
-                            {"reference_rmse", convergence.reference_rmse()},
-                            {"scene_checksum", reference.key.scene_checksum}};
-
-    std::vector<study::Setting> skipped;
-    {
-        Progress progress;
-        const auto told = [&](const study::Setting&, double share) {
-            progress.update(fmt::format("converging {}", scene.name), "steps",
-                            static_cast<std::uint64_t>(10000 * share), 10000);
-        };
-        const auto measured = [&](const study::Setting& setting, const study::Measured& found) {
-            rows.push_back(found.row);
-            results::write_csv<results::ConvergenceRow>(
-                csv, rows);  // at each step: a run that is stopped goes on from here
-            results::write_provenance(csv, {command_line(), version(), git_revision(), ""}, of);
-            write_strips(options.folder / "strips", setting, found.first, reference.mean());
-        };
-        skipped = study::run(convergence, config, {ladder, known, left, told, measured});
-    }
-
-    const double mean = convergence.mean_radiance();
-    fmt::print("{}, {} x {} pixels, {} seeds; % of the mean radiance {:.4g} W / (m^2 sr)\n", scene.name,
-               config.width, config.height, config.seeds, mean);
-    fmt::print("reference: {} samples a pixel in {:.1f} s, own RMSE {:.3g} %; no error below it is told\n",
-               reference.samples, reference.seconds,
-               100 * convergence.reference_rmse() / (mean > 0 ? mean : 1));
-    fmt::print("{}\n{}", charts::convergence_table(rows), charts::time_table(rows));
-    if (!known.empty()) fmt::print("{} of {} settings were there already\n", known.size(), rows.size());
-    if (!skipped.empty())
-        fmt::print("{} of {} settings did not fit into the time; the same command goes on with them\n",
-                   skipped.size(), ladder.size());
-    for (const auto& drawn : charts::write_charts(options.folder / "charts", {{}, {}, {}, {}, rows}, {}, {}))
-        fmt::print("{}\n", drawn.files.empty() ? fmt::format("{}: not drawn: {}", drawn.kind, drawn.skipped)
-                                               : drawn.files.back().string());
-    fmt::print("strips: {}\nrows: {}\n", (options.folder / "strips").string(), csv.string());
+void run(const study::ConvergenceJob& job, const Console& console) {
+    const study::Converged made = measure(job, console);
+    console.print("{}, {} x {} pixels, {} seeds; % of the mean radiance {:.4g} W / (m^2 sr)\n", made.scene,
+                  made.config.width, made.config.height, made.config.seeds, made.mean_radiance);
+    console.print("reference: {} samples a pixel in {:.1f} s, own RMSE {:.3g} %; no error below it is told\n",
+                  made.reference.samples, made.reference.seconds,
+                  100 * made.reference_rmse / (made.mean_radiance > 0 ? made.mean_radiance : 1));
+    console.print("{}\n{}", charts::convergence_table(made.rows), charts::time_table(made.rows));
+    if (made.known > 0) console.print("{} of {} settings were there already\n", made.known, made.rows.size());
+    if (made.skipped > 0)
+        console.print("{} of {} settings did not fit into the time; the same command goes on with them\n",
+                      made.skipped, made.settings);
+    for (const auto& drawn : charts::write_charts(job.folder / "charts", {{}, {}, {}, {}, made.rows}, {}, {}))
+        console.print("{}\n", drawn.files.empty()
+                                  ? fmt::format("{}: not drawn: {}", drawn.kind, drawn.skipped)
+                                  : drawn.files.back().string());
+    console.print("strips: {}\nrows: {}\n", (job.folder / "strips").string(), made.csv.string());
 }
 
 }  // namespace
 
-void add_converge(CLI::App& app) {
-    auto options = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("converge", "measure error against run time over a ladder of settings");
-    command->add_option("scene", options->scene, "an embedded scene's name or a scene file")->required();
-    command
-        ->add_option("-o,--output", options->folder,
-                     "folder for converge.csv, charts/, strips/ and reference/")
-        ->required();
-    command
-        ->add_option("--seconds", options->seconds,
-                     "about how long it may take; two fifths are for the reference when there is none")
-        ->capture_default_str();
-    command->add_option("--width", options->width, "image width [pixels]; without: the reference's, or 64")
-        ->check(CLI::Range(1u, 4096u));
-    command->add_option("--height", options->height, "image height [pixels]; without: the width")
-        ->check(CLI::Range(1u, 4096u));
-    command->add_option("--reference", options->reference,
-                        "a folder of `regather reference`; without: one is rendered");
-    command->add_option("--ladder", options->ladder,
-                        "a CSV of settings (docs/converge.md); without: the built-in ladders");
-    command->add_option("--seeds", options->seeds, "images of each setting")
-        ->check(CLI::Range(1u, 1000u))
-        ->capture_default_str();
-    command->add_option("--shadow-rays", options->shadow_rays, "per light and shaded point")
-        ->check(CLI::Range(0u, 1u << 20))
-        ->capture_default_str();
-    command->add_option("--frame", options->frame,
-                        "of the scene's camera path; without: the standing camera");
-    command->add_flag("--force", options->force, "measure again what the folder holds");
-    command->footer(
-        "A setting that is in the folder's CSV already is not measured again.\nExamples:\n"
+void add_converge(Command& command) {
+    auto job = std::make_shared<study::ConvergenceJob>();
+    command.argument("scene", job->scene, "an embedded scene's name or a scene file").required();
+    command.option("-o,--output", job->folder, "folder for converge.csv, charts/, strips/ and reference/")
+        .required();
+    command.option("--seconds", job->seconds, {.least = 0, .above = true},
+                   "about how long it may take; two fifths are for the reference when there is none");
+    command.option("--width", job->width, {1, 4096}, "image width [pixels]; without: the reference's, or 64");
+    command.option("--height", job->height, {1, 4096}, "image height [pixels]; without: the width");
+    command.option("--reference", job->reference,
+                   "a folder of `regather reference`; without: one is rendered");
+    command.option("--ladder", job->ladder,
+                   "a CSV of settings (docs/converge.md); without: the built-in ladders");
+    command.option("--seeds", job->seeds, {1, 1000}, "images of each setting");
+    command.option("--shadow-rays", job->shadow_rays, {0, 1u << 20}, "per light and shaded point");
+    command.option("--frame", job->frame, {}, "of the scene's camera path; without: the standing camera");
+    command.flag("--force", job->force, "measure again what the folder holds");
+    command.footer(
+        "A setting that is in the folder's CSV already is not measured again; SIGINT (Ctrl-C) and SIGTERM "
+        "leave what is\n"
+        "finished.\nExamples:\n"
         "  regather converge box -o out/box-converge --seconds 120\n"
         "  regather converge room -o out/room-converge --width 128 --reference out/room-reference --seconds "
         "600");
-    command->callback([options] { run(*options); });
+    command.action(job, run);
 }
 
 }  // namespace regather::cli

@@ -4,10 +4,11 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
+#include "cachesim/cache_list.h"
+#include "cli/command.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "cli/version.h"
@@ -53,73 +54,69 @@ void check_outputs(const Options& options) {
 }
 
 template <class R>
-void write(const std::filesystem::path& csv, const std::vector<R>& rows, const trace::TraceReader& trace) {
+void write(const std::filesystem::path& csv, const std::vector<R>& rows, const trace::TraceReader& trace,
+           const Console& console) {
     if (csv.empty()) return;
     results::write_csv<R>(csv, rows);
-    results::write_provenance(csv, {command_line(), version(), git_revision(), trace.checksum()},
-                              trace.info().parameters);
+    results::write_provenance(csv, provenance(console, trace.checksum()), trace.info().parameters);
 }
 
-void run(const Options& options) {
+void run(const Options& options, const Console& console) {
     check_outputs(options);
     const auto [orderings, reads] = experiment::parse_orderings(options.orders);
-    std::vector<cachesim::CacheConfig> caches;
-    for (const std::string& text : options.caches)
-        for (const cachesim::CacheConfig& cache : experiment::parse_caches(text)) caches.push_back(cache);
+    const auto caches = cachesim::parse_caches(options.caches);
     const std::uint64_t onchip = trace::parse_size(options.onchip);
     trace::TraceReader trace(options.trace);
     const experiment::Measurement measurement(trace, reads, onchip);
     const std::string& scene = trace.info().scene;
     experiment::Detail detail;
     {
-        Progress progress;
+        Progress progress(console);
         detail =
             experiment::detail(measurement, scene, {orderings, caches, options.slices, !options.no_buffers},
                                progress.listener());
     }
-    write(options.csv, detail.rows, trace);
-    write(options.timeline, detail.slices, trace);
+    write(options.csv, detail.rows, trace, console);
+    write(options.timeline, detail.slices, trace, console);
     for (std::size_t c = 0; c < caches.size(); ++c)
-        fmt::print("{}{} | {} queries | {} | on chip {}\n{}", c == 0 ? "" : "\n", scene,
-                   results::decimal_count(static_cast<double>(measurement.queries())),
-                   experiment::cache_text(caches[c]), options.onchip,
-                   experiment::detail_table(detail.lines[c]));
-    fmt::print(
+        console.print("{}{} | {} queries | {} | on chip {}\n{}", c == 0 ? "" : "\n", scene,
+                      results::decimal_count(static_cast<double>(measurement.queries())),
+                      cachesim::cache_text(caches[c]), options.onchip,
+                      experiment::detail_table(detail.lines[c]));
+    console.print(
         "traffic = fetched and written back; overfetch = traffic / bytes used; 3C = compulsory / capacity / "
         "conflict misses\n");
     if (detail.unknown_buffers)
-        fmt::print("a library's buffers are not simulated: how they are used is not known\n");
-    if (!options.csv.empty()) fmt::print("rows: {}\n", options.csv.string());
-    if (!options.timeline.empty()) fmt::print("timeline: {}\n", options.timeline.string());
+        console.print("a library's buffers are not simulated: how they are used is not known\n");
+    if (!options.csv.empty()) console.print("rows: {}\n", options.csv.string());
+    if (!options.timeline.empty()) console.print("timeline: {}\n", options.timeline.string());
 }
 
 }  // namespace
 
-void add_detail(CLI::App& app) {
+void add_detail(Command& command) {
     auto options = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("detail", "tell apart which data misses in a cache, why, and when");
-    command->add_option("trace", options->trace, "the folder of a finished trace")->required();
+    command.argument("trace", options->trace, "the folder of a finished trace").required();
     command
-        ->add_option("--order,--reorderer", options->orders,
-                     "orderings as NAME:parameter=value,...; or the path of a shared library")
-        ->required();
-    command->add_option("--cache", options->caches, "caches as SIZE:LINE:WAYS; WAYS may be full")
-        ->capture_default_str();
-    command->add_option("--onchip", options->onchip, "bytes that the chip can buffer")->capture_default_str();
-    command->add_option("--slices", options->slices, "slices of the run in the timeline")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 32))
-        ->capture_default_str();
-    command->add_flag("--no-buffers", options->no_buffers, "leave out the accesses of reorder buffers");
-    command->add_option("--csv", options->csv,
-                        "write rows by region and tree depth here, and X.json beside X.csv");
-    command->add_option("--timeline", options->timeline, "write rows by slice of the run here, likewise");
-    command->add_flag("--force", options->force, "overwrite the files");
-    command->footer(
+        .list("--order,--reorderer", options->orders,
+              "orderings as NAME:parameter=value,...; or the path of a shared library")
+        .required();
+    command.list("--cache", options->caches, "caches as SIZE:LINE:WAYS; WAYS may be full");
+    command.option("--onchip", options->onchip, "bytes that the chip can buffer");
+    command.option("--slices", options->slices, {1, std::uint64_t{1} << 32},
+                   "slices of the run in the timeline");
+    command.flag("--no-buffers", options->no_buffers, "leave out the accesses of reorder buffers");
+    command.option("--csv", options->csv,
+                   "write rows by region and tree depth here, and X.json beside X.csv");
+    command.option("--timeline", options->timeline, "write rows by slice of the run here, likewise");
+    command.flag("--force", options->force, "overwrite the files");
+    command.needs("--slices", {"--timeline"});
+    command.needs("--force", {"--csv", "--timeline"});
+    command.footer(
         "Example:\n"
         "  regather detail out/room/trace --order naive hilbert hilbert:tile=16 --csv detail.csv --timeline "
         "timeline.csv");
-    command->callback([options] { run(*options); });
+    command.action(options, run);
 }
 
 }  // namespace regather::cli

@@ -2,7 +2,6 @@
 // scenes/import_*.h.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -10,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/command.h"
 #include "cli/commands.h"
 #include "imports/furniture/demonstration.h"
 #include "imports/homes/sweethome3d.h"
@@ -92,10 +92,9 @@ const ImportKind& kind_of(const std::string& word) {
                                  trace::listed(names)));
 }
 
-void refuse_options_of_others(const CLI::App& command, const ImportKind& kind) {
+void refuse_options_of_others(const Command& command, const ImportKind& kind) {
     for (const std::string_view option : {"--home", "--map", "--up", "--size"})
-        if (command.count(std::string(option)) > 0 &&
-            kind.options.find(std::string(option) + " ") == std::string_view::npos)
+        if (command.given(option) && kind.options.find(std::string(option) + " ") == std::string_view::npos)
             throw UsageError(fmt::format("{}: found with the kind {}, expected {}", option, kind.name,
                                          kind.options.empty() ? "no option of that kind" : kind.options));
 }
@@ -133,7 +132,7 @@ std::string footer() {
 
 }  // namespace
 
-void add_import(CLI::App& app) {
+void add_import(Command& command) {
     struct Options {
         std::string kind;
         Request request;
@@ -141,28 +140,26 @@ void add_import(CLI::App& app) {
         bool force = false;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("import", "Makes a scene of a home, a map, furniture or a mesh of others");
-    command->add_option("KIND", options->kind, "which importer: see below")->required();
-    command->add_option("FILE", options->request.files, "what to read")->required();
-    command->add_option("-o,--output", options->folder, "folder for scene.json and meshes/")->required();
-    command->add_option("--home", options->request.home, "which home of the archive (sweethome3d)");
-    command->add_option("--map", options->request.map, "which map of the archives (openarena)");
-    command->add_option("--up", options->request.up,
-                        "the file's axis that points up, y or z (mesh; default y)");
-    command->add_option("--size", options->request.size,
-                        "the object's largest extent in metres (mesh; default 1)");
-    command->add_flag("--force", options->force, "replace an imported scene");
-    command->footer(footer());
-    command->callback([options, command] {
-        const ImportKind& kind = kind_of(options->kind);
-        refuse_options_of_others(*command, kind);
-        imports::check_scene_folder(options->folder, options->force);
-        const Imported imported = kind.import(options->request);
-        imports::write_scene(imported.scene, options->folder, options->force);
-        fmt::print("{}", summary_of(imported.scene));
-        for (const std::string& note : imported.notes) fmt::print("note     {}\n", note);
-        fmt::print("written  {}\n", (options->folder / "scene.json").string());
+    Request& request = options->request;
+    command.argument("KIND", options->kind, "which importer: see below").required();
+    command.arguments("FILE", request.files, "what to read").required();
+    command.option("-o,--output", options->folder, "folder for scene.json and meshes/").required();
+    command.option("--home", request.home, "which home of the archive (sweethome3d)");
+    command.option("--map", request.map, "which map of the archives (openarena)");
+    command.option("--up", request.up, "the file's axis that points up, y or z (mesh)");
+    command.option("--size", request.size, {.least = 0, .above = true},
+                   "the object's largest extent in metres (mesh)");
+    command.flag("--force", options->force, "replace an imported scene");
+    command.footer(footer());
+    command.action(options, [&command](const Options& asked, const Console& console) {
+        const ImportKind& kind = kind_of(asked.kind);
+        refuse_options_of_others(command, kind);
+        imports::check_scene_folder(asked.folder, asked.force);
+        const Imported imported = kind.import(asked.request);
+        imports::write_scene(imported.scene, asked.folder, asked.force);
+        console.print("{}", summary_of(imported.scene));
+        for (const std::string& note : imported.notes) console.print("note     {}\n", note);
+        console.print("written  {}\n", (asked.folder / "scene.json").string());
     });
 }
 

@@ -1,10 +1,10 @@
 // regather info -- what a trace holds, or what a scene needs of a capture.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
+#include "cli/command.h"
 #include "cli/commands.h"
 #include "scenes/loader.h"
 #include "scenes/needs.h"
@@ -26,54 +26,59 @@ void check(trace::TraceReader& trace) {
                         (trace.folder() / "photon.npy").string(), node));
 }
 
-void print_trace(const std::filesystem::path& folder, bool verify) {
+void print_trace(const std::filesystem::path& folder, bool verify, const Console& console) {
     trace::TraceReader trace(folder);
     if (verify) check(trace);
     const trace::TraceInfo& info = trace.info();
     const double queries = static_cast<double>(std::max<std::uint64_t>(info.queries, 1));
-    fmt::print(
+    console.print(
         "trace      {}\nscene      {}{}\nmap        {}\nimage      {} x {} pixels\nseed       {}\nstructure  "
         "{}, {} photons, k = {}\n",
         folder.string(), info.scene, info.frame ? fmt::format(", frame {}", *info.frame) : "", info.map,
         info.image_width, info.image_height, info.seed, info.structure, info.photons, info.k);
-    fmt::print("queries    {}: {:.1f} photons found, {:.1f} nodes visited, {:.1f} bytes of walk each\n",
-               info.queries, static_cast<double>(info.found_photons) / queries,
-               static_cast<double>(info.visited_nodes) / queries,
-               static_cast<double>(trace.digests().at("walk").rows) / queries);
-    fmt::print("checksum   {}\nparameters {}\ncounts     {}\ncolumns\n", trace.checksum(),
-               info.parameters.dump(), info.counts.dump());
+    console.print("queries    {}: {:.1f} photons found, {:.1f} nodes visited, {:.1f} bytes of walk each\n",
+                  info.queries, static_cast<double>(info.found_photons) / queries,
+                  static_cast<double>(info.visited_nodes) / queries,
+                  static_cast<double>(trace.digests().at("walk").rows) / queries);
+    console.print("checksum   {}\nparameters {}\ncounts     {}\ncolumns\n", trace.checksum(),
+                  info.parameters.dump(), info.counts.dump());
     for (const trace::ColumnEntry& entry : trace::column_table()) {
         if (!trace.has(entry.name)) continue;
         const std::uint64_t rows = trace.digests().at(std::string(entry.name)).rows;
-        fmt::print("  {:<24} {:>12} rows  {:>9.1f} MB  {} [{}]\n", entry.name, rows,
-                   static_cast<double>(rows * entry.type().row_bytes) / 1e6, entry.type().readable,
-                   entry.unit);
+        console.print("  {:<24} {:>12} rows  {:>9.1f} MB  {} [{}]\n", entry.name, rows,
+                      static_cast<double>(rows * entry.type().row_bytes) / 1e6, entry.type().readable,
+                      entry.unit);
     }
-    for (const trace::LeftOut& part : info.left_out) fmt::print("left out   {}: {}\n", part.what, part.why);
-    if (verify) fmt::print("verified   every column's checksum, and the order of the tree\n");
+    for (const trace::LeftOut& part : info.left_out)
+        console.print("left out   {}: {}\n", part.what, part.why);
+    if (verify) console.print("verified   every column's checksum, and the order of the tree\n");
 }
 
 }  // namespace
 
-void add_info(CLI::App& app) {
+void add_info(Command& command) {
     struct Options {
         std::string what;
         bool verify = false;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("info", "what a trace holds, or what a scene needs");
-    command->add_option("what", options->what, "a trace's folder, an embedded scene's name or a scene file")
-        ->required();
-    command->add_flag("--verify", options->verify, "read every column and check it");
-    command->footer("Examples:\n  regather info out/room/trace --verify\n  regather info room");
-    command->callback([options] {
-        if (std::filesystem::is_directory(options->what)) return print_trace(options->what, options->verify);
-        const scenes::Scene scene = scenes::load_scene(options->what);
-        fmt::print("scene      {}, {} triangles, {} materials, {} lights\n", scene.name,
-                   scene.triangles.size(), scene.materials.size(), scene.lights.size());
+    command.argument("what", options->what, "a trace's folder, an embedded scene's name or a scene file")
+        .required();
+    command.flag("--verify", options->verify, "read every column of a trace and check it");
+    command.footer("Examples:\n  regather info out/room/trace --verify\n  regather info room");
+    command.action(options, [](const Options& asked, const Console& console) {
+        if (std::filesystem::is_directory(asked.what)) return print_trace(asked.what, asked.verify, console);
+        const scenes::Scene scene = scenes::load_scene(asked.what);
+        if (asked.verify)
+            throw trace::UsageError(
+                fmt::format("--verify: found with the scene {}, expected a trace's folder: a scene is "
+                            "checked in any case",
+                            scene.name));
+        console.print("scene      {}, {} triangles, {} materials, {} lights\n", scene.name,
+                      scene.triangles.size(), scene.materials.size(), scene.lights.size());
         const scenes::Needs needs = scenes::needs_of(scene);
         for (const scenes::Need* need : needs.list())
-            fmt::print("{:<10} {}: {}\n", need->needed ? "needed" : "left out", need->part, need->reason);
+            console.print("{:<10} {}: {}\n", need->needed ? "needed" : "left out", need->part, need->reason);
     });
 }
 

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for_each.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <memory>
 
+#include "cachesim/cache_list.h"
+#include "cli/command.h"
 #include "cli/commands.h"
-#include "cli/progress.h"
+#include "trace/error.h"
 
 namespace regather::cli {
 
@@ -64,7 +65,7 @@ std::string_view word(const std::array<std::string_view, n>& names, Enum value) 
     return names[static_cast<std::size_t>(value)];
 }
 
-void print_all() {
+void print_all(const Console& console) {
     std::size_t widest = 0;
     for (const cachesim::EmbeddedMachine& row : cachesim::machine_catalogue())
         widest = std::max(widest, row.name.size());
@@ -74,24 +75,25 @@ void print_all() {
         for (const LevelConfig& level : machine.levels)
             levels += fmt::format("{}{} {} {}", levels.empty() ? "" : ", ", level.name,
                                   bytes_in_words(level.cache.geometry.size_bytes), ways_in_words(level));
-        fmt::print("{:<{}}  {}\n{:<{}}  {}\n", row.name, widest, levels, "", widest, machine.summary);
+        console.print("{:<{}}  {}\n{:<{}}  {}\n", row.name, widest, levels, "", widest, machine.summary);
     }
 }
 
-void print_line(std::string_view label, std::string_view value, const std::vector<cachesim::Source>& sources,
-                std::string_view key) {
+void print_line(const Console& console, std::string_view label, std::string_view value,
+                const std::vector<cachesim::Source>& sources, std::string_view key) {
     const auto source =
         std::find_if(sources.begin(), sources.end(), [&](const auto& s) { return s.key == key; });
     if (source == sources.end())
-        fmt::print("  {:<15}{}\n", label, value);
+        console.print("  {:<15}{}\n", label, value);
     else
-        fmt::print("  {:<15}{:<14}{}\n", label, value, source->text);
+        console.print("  {:<15}{:<14}{}\n", label, value, source->text);
 }
 
-void print_level(const LevelConfig& level, const std::vector<cachesim::Source>& sources) {
-    fmt::print("\n{}: {} sets of {}\n", level.name, level.cache.sets(), level.cache.ways());
+void print_level(const Console& console, const LevelConfig& level,
+                 const std::vector<cachesim::Source>& sources) {
+    console.print("\n{}: {} sets of {}\n", level.name, level.cache.sets(), level.cache.ways());
     const auto line = [&](std::string_view key, std::string_view value) {
-        print_line(key, value, sources, key);
+        print_line(console, key, value, sources, key);
     };
     line("size_bytes", fmt::format("{}", level.cache.geometry.size_bytes));
     line("line_bytes", fmt::format("{}", level.line_bytes()));
@@ -108,10 +110,11 @@ void print_level(const LevelConfig& level, const std::vector<cachesim::Source>& 
     line("prefetch", word(cachesim::prefetch_names, level.prefetch));
 }
 
-void print_dram(const cachesim::DramConfig& dram, const std::vector<cachesim::Source>& sources) {
-    fmt::print("\ndram\n");
+void print_dram(const Console& console, const cachesim::DramConfig& dram,
+                const std::vector<cachesim::Source>& sources) {
+    console.print("\ndram\n");
     const auto line = [&](std::string_view key, std::string_view value) {
-        print_line(key, value, sources, key);
+        print_line(console, key, value, sources, key);
     };
     line("channels", fmt::format("{}", dram.channels));
     line("ranks", fmt::format("{}", dram.ranks));
@@ -125,22 +128,26 @@ void print_dram(const cachesim::DramConfig& dram, const std::vector<cachesim::So
     line("write_pj", fmt::format("{}", dram.write_pj));
 }
 
-void print_details(const std::string& name_or_path) {
+void print_details(const std::string& name_or_path, const Console& console) {
     const Machine machine = cachesim::load_machine(name_or_path);
-    fmt::print("{}\n", machine.name);
-    if (!machine.summary.empty()) fmt::print("{}\n", machine.summary);
+    console.print("{}\n", machine.name);
+    if (!machine.summary.empty()) console.print("{}\n", machine.summary);
     for (std::size_t i = 0; i < machine.levels.size(); ++i)
-        print_level(machine.levels[i], machine.sources[i]);
-    if (machine.dram) print_dram(*machine.dram, machine.dram_sources);
+        print_level(console, machine.levels[i], machine.sources[i]);
+    if (machine.dram) print_dram(console, *machine.dram, machine.dram_sources);
 }
 
 }  // namespace
 
 std::vector<Machine> load_machines(std::string_view list) {
     std::vector<Machine> machines;
-    for (std::size_t comma; (comma = list.find(',')) != list.npos; list.remove_prefix(comma + 1))
-        machines.push_back(cachesim::load_machine(list.substr(0, comma)));
-    machines.push_back(cachesim::load_machine(list));
+    for (const std::string_view name : cachesim::list_parts(list)) {
+        machines.push_back(cachesim::load_machine(name));
+        if (std::count_if(machines.begin(), machines.end(),
+                          [&](const Machine& one) { return one.name == machines.back().name; }) > 1)
+            throw trace::UsageError(
+                fmt::format("--machine: found {} twice, expected each machine once", machines.back().name));
+    }
     return machines;
 }
 
@@ -179,16 +186,16 @@ std::string machine_rows(const Machine& machine, const Hierarchy& hierarchy) {
     return rows;
 }
 
-std::string run_machines(std::span<const Machine> machines, const cachesim::AddressFiles& files) {
+std::string run_machines(std::span<const Machine> machines, const cachesim::AddressFiles& files,
+                         const experiment::ProgressListener& progress) {
     cachesim::AddressTrace trace(files);
     std::vector<Hierarchy> hierarchies;
     for (const Machine& machine : machines) hierarchies.push_back(machine.hierarchy());
-    Progress progress;
     for (auto records = trace.next(); !records.empty(); records = trace.next()) {
         tbb::parallel_for_each(
             hierarchies, [&](Hierarchy& hierarchy) { hierarchy.access(records, trace::Region::other); });
         const auto [done, total, unit] = trace.position();
-        if (total != 0) progress.update("cachesim", unit, done, total);
+        if (total != 0) progress("cachesim", unit, done, total);
     }
     std::string csv = machine_header();
     for (std::size_t i = 0; i < machines.size(); ++i) {
@@ -198,17 +205,17 @@ std::string run_machines(std::span<const Machine> machines, const cachesim::Addr
     return csv;
 }
 
-void add_machines(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
-        "machines", "Lists the embedded machines, or shows one with the source of each figure");
-    command->footer(
+void add_machines(Command& command) {
+    auto machine = std::make_shared<std::string>();
+    command.argument("MACHINE", *machine, "an embedded machine's name, or a JSON file");
+    command.footer(
         "Examples:\n"
         "  regather machines                  the embedded machines\n"
         "  regather machines gpu-a100         one of them: every figure and where it is from\n"
         "  regather machines my_machine.json  a machine file (docs/machines.md): checked, then shown");
-    auto machine = std::make_shared<std::string>();
-    command->add_option("MACHINE", *machine, "an embedded machine's name, or a JSON file");
-    command->callback([machine] { machine->empty() ? print_all() : print_details(*machine); });
+    command.action(machine, [](const std::string& name, const Console& console) {
+        name.empty() ? print_all(console) : print_details(name, console);
+    });
 }
 
 }  // namespace regather::cli

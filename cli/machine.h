@@ -7,6 +7,7 @@
 
 #include "cachesim/address_trace.h"
 #include "cachesim/machine.h"
+#include "experiment/progress.h"
 
 namespace regather::cli {
 
@@ -21,6 +22,7 @@ std::string machine_rows(const cachesim::Machine& machine, const cachesim::Hiera
 
 /// A whole CSV: the trace, read once, through each machine from empty to flushed. All is charged to
 /// Region::other.
-std::string run_machines(std::span<const cachesim::Machine> machines, const cachesim::AddressFiles& files);
+std::string run_machines(std::span<const cachesim::Machine> machines, const cachesim::AddressFiles& files,
+                         const experiment::ProgressListener& progress);
 
 }  // namespace regather::cli

@@ -22,10 +22,17 @@ std::string time_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress() : terminal_(::isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(const Console& console)
+    : err_(console.err), terminal_(::isatty(::fileno(console.err)) != 0) {}
 
 Progress::~Progress() {
-    if (shown_) std::fputs("\r\x1b[K", stderr);
+    clear();
+}
+
+void Progress::clear() {
+    const std::lock_guard lock(mutex_);
+    if (shown_) std::fputs("\r\x1b[K", err_);
+    shown_ = false;
 }
 
 void Progress::update(std::string_view stage, std::string_view unit, std::uint64_t done,
@@ -51,8 +58,8 @@ void Progress::update(std::string_view stage, std::string_view unit, std::uint64
         line += fmt::format(", {}{}/s, {} left", rate_text(rate), unit,
                             time_text(static_cast<double>(total - done) / rate));
     }
-    fmt::print(stderr, "\r\x1b[K{}", line);
-    std::fflush(stderr);
+    fmt::print(err_, "\r\x1b[K{}", line);
+    std::fflush(err_);
 }
 
 }  // namespace regather::cli

@@ -1,21 +1,22 @@
-// cli/progress.h -- one line on stderr with what is done, the rate and the time left; nothing when stderr is
-// no terminal.
+// cli/progress.h -- one line on the console with what is done, the rate and the time left; nothing when that
+// is no terminal.
 #pragma once
-#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <string>
 #include <string_view>
 
+#include "cli/console.h"
 #include "experiment/progress.h"
 
 namespace regather::cli {
 
 class Progress {
 public:
-    Progress();
-    ~Progress();  ///< Clears the line.
+    explicit Progress(const Console& console);
+    ~Progress();   ///< clear()
+    void clear();  ///< Takes the line away, until the next update.
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
@@ -29,6 +30,7 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
+    std::FILE* err_;
     bool terminal_;
     bool shown_ = false;
     std::mutex mutex_;

@@ -2,16 +2,18 @@
 // clock.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <memory>
 
+#include "cli/command.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "cli/version.h"
 #include "experiment/measurement.h"
 #include "experiment/race.h"
+#include "experiment/workload.h"
 #include "results/provenance.h"
 #include "spatial/photon_kd.h"
 #include "trace/error.h"
@@ -41,13 +43,13 @@ std::vector<experiment::Structure> parse_structures(const std::vector<std::strin
         if (!structure)
             throw trace::UsageError(
                 fmt::format("--structure: found '{}', expected left-balanced or bucketed", word));
-        if (std::find(parsed.begin(), parsed.end(), *structure) == parsed.end()) parsed.push_back(*structure);
+        parsed.push_back(*structure);
     }
     return parsed;
 }
 
-/// A trace's queries, or a contiguous part from the middle of the capture, as orderings look at them.
-reorder::Workload workload(trace::TraceReader& trace, const reorder::Reads& reads, std::uint64_t asked_for) {
+/// All of the trace's queries, or a contiguous part from the middle of the capture.
+reorder::Workload raced(trace::TraceReader& trace, const reorder::Reads& reads, std::uint64_t asked_for) {
     const std::uint64_t all = trace.info().queries, wanted = asked_for == 0 ? all : asked_for;
     if (wanted > all)
         throw trace::UsageError(
@@ -55,17 +57,15 @@ reorder::Workload workload(trace::TraceReader& trace, const reorder::Reads& read
     if (all == 0)
         throw trace::DataError(fmt::format("{}: found no queries, expected at least 1",
                                            (trace.folder() / "query_position.npy").string()));
-    const std::size_t first = (all - wanted) / 2;
-    reorder::Workload work;
-    work.position = trace.column<trace::Vec3>("query_position").subspan(first, wanted);
-    work.pixel = trace.column<std::uint32_t>("query_pixel").subspan(first, wanted);
-    if (reads.direction) work.direction = trace.column<trace::Vec3>("query_direction").subspan(first, wanted);
-    if (reads.leaf_kd) work.leaf_kd = trace.column<std::uint32_t>("query_leaf_kd").subspan(first, wanted);
-    if (reads.leaf_bvh) work.leaf_bvh = trace.column<std::uint32_t>("query_leaf_bvh").subspan(first, wanted);
-    work.bounds = trace::bounds_of(work.position);
-    work.image_width = trace.info().image_width;
-    work.image_height = trace.info().image_height;
-    return work;
+    return experiment::middle_of(experiment::workload(trace, reads), wanted);
+}
+
+/// Of the searches that made the trace [scene units].
+float captured_radius(const trace::TraceInfo& info) {
+    const nlohmann::json& all = info.parameters;
+    const nlohmann::json& own = info.map == "caustic" && all.contains("caustic") ? all.at("caustic") : all;
+    return own.contains("radius") && own.at("radius").is_number() ? own.at("radius").get<float>()
+                                                                  : std::numeric_limits<float>::infinity();
 }
 
 std::string quoted(const std::string& cell) {
@@ -131,7 +131,7 @@ std::string table_text(const Result& result) {
     return out;
 }
 
-void race(const Options& options) {
+void race(const Options& options, const Console& console) {
     if (!options.csv.empty()) results::refuse_to_overwrite(options.csv, options.force);
     auto [orderings, reads] = experiment::parse_orderings(options.orders);
     const auto is_naive = [](const reorder::ParsedOrdering& ordering) {
@@ -151,18 +151,17 @@ void race(const Options& options) {
     trace::TraceReader trace(options.trace);
     const trace::TraceInfo& info = trace.info();
     config.k = options.k == 0 ? info.k : options.k;
-    const auto radius = info.parameters.find("radius");
-    if (radius != info.parameters.end() && radius->is_number()) config.radius = radius->get<float>();
+    config.radius = captured_radius(info);
     const std::span<const trace::Photon> heap = trace.column<trace::Photon>("photon");
     const spatial::PhotonKd tree(heap);
     if (const std::uint32_t node = spatial::first_disorder(tree); node != tree.size())
         throw trace::DataError(fmt::format("{}: row {} breaks the order of a left-balanced kd-tree",
                                            (trace.folder() / "photon.npy").string(), node));
-    const reorder::Workload work = workload(trace, reads, options.queries);
+    const reorder::Workload work = raced(trace, reads, options.queries);
 
     Result result{info, orderings, config, work.position.size(), {}};
     {
-        Progress progress;
+        Progress progress(console);
         result.race = experiment::race(heap, work, orderings, baseline, config,
                                        [&](std::uint64_t done, std::uint64_t total) {
                                            progress.update("racing", "queries", done, total);
@@ -170,54 +169,40 @@ void race(const Options& options) {
     }
     if (config.k == info.k && result.queries == info.queries &&
         result.race.found_photons != info.found_photons)
-        throw std::runtime_error(fmt::format("{}: found_photons: found {}, the searches find {}",
-                                             (trace.folder() / "trace.json").string(), info.found_photons,
-                                             result.race.found_photons));
+        throw trace::DataError(fmt::format(
+            "{}: found_photons: found {}, expected {}, which the searches find",
+            (trace.folder() / "trace.json").string(), info.found_photons, result.race.found_photons));
     if (!options.csv.empty()) {
         trace::write_whole(options.csv, csv_text(result));
-        results::write_provenance(options.csv, {command_line(), version(), git_revision(), trace.checksum()},
-                                  info.parameters);
+        results::write_provenance(options.csv, provenance(console, trace.checksum()), info.parameters);
     }
-    fmt::print("{}", table_text(result));
-    if (!options.csv.empty()) fmt::print("rows: {}\n", options.csv.string());
+    console.print("{}", table_text(result));
+    if (!options.csv.empty()) console.print("rows: {}\n", options.csv.string());
 }
 
 }  // namespace
 
-void add_race(CLI::App& app) {
+void add_race(Command& command) {
     auto options = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("race", "search a trace's queries on this machine in other orders, timed");
-    command->add_option("trace", options->trace, "the folder of a finished trace")->required();
-    command
-        ->add_option("--order,--reorderer", options->orders,
-                     "orderings as in replay; naive, which the others are compared with, runs in any case")
-        ->capture_default_str();
-    command->add_option("--structure", options->structures, "what is searched: left-balanced, bucketed")
-        ->delimiter(',')
-        ->capture_default_str();
-    command->add_option("--k", options->k, "photons of a gather; 0: as captured")
-        ->check(CLI::Range(0u, (1u << 31) - 1))
-        ->capture_default_str();
-    command->add_option("--queries", options->queries, "so many, from the middle of the capture; 0: all")
-        ->capture_default_str();
-    command->add_option("--repeats", options->repeats, "of each ordering")
-        ->check(CLI::Range(1u, 1000u))
-        ->capture_default_str();
-    command->add_option("--threads", options->threads, "for searches, keys and sort")
-        ->check(CLI::Range(1u, 1024u))
-        ->capture_default_str();
-    command->add_flag(
-        "--gathered", options->gathered,
-        "copy the positions into the order before the search; its time counts as the ordering's");
-    command->add_option("--csv", options->csv, "write the rows here, and X.json beside X.csv");
-    command->add_flag("--force", options->force, "overwrite the CSV");
-    command->footer(
+    command.argument("trace", options->trace, "the folder of a finished trace").required();
+    command.list("--order,--reorderer", options->orders,
+                 "orderings as in replay; naive, which the others are compared with, runs in any case");
+    command.comma_list("--structure", options->structures, "what is searched: left-balanced, bucketed");
+    command.option("--k", options->k, {0, (1u << 31) - 1}, "photons of a gather; 0: as captured");
+    command.option("--queries", options->queries, {}, "so many, from the middle of the capture; 0: all");
+    command.option("--repeats", options->repeats, {1, 1000}, "of each ordering");
+    command.option("--threads", options->threads, {1, 1024}, "for searches, keys and sort");
+    command.flag("--gathered", options->gathered,
+                 "copy the positions into the order before the search; its time counts as the ordering's");
+    command.option("--csv", options->csv, "write the rows here, and X.json beside X.csv");
+    command.flag("--force", options->force, "overwrite the CSV");
+    command.needs("--force", {"--csv"});
+    command.footer(
         "Examples:\n"
         "  regather race out/room/trace\n"
         "  regather race out/room/trace --order hilbert hilbert:tile=16 kd-leaf --structure bucketed --csv "
         "race.csv");
-    command->callback([options] { race(*options); });
+    command.action(options, race);
 }
 
 }  // namespace regather::cli

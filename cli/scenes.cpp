@@ -2,7 +2,6 @@
 // renderings.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -12,6 +11,7 @@
 
 #include "capture/contact_sheet.h"
 #include "capture/visibility.h"
+#include "cli/command.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "scenes/camera_path.h"
@@ -57,7 +57,7 @@ std::string bounds_of(const Scene& scene) {
 
 using Row = std::array<std::string, 8>;
 
-void print_table(const std::vector<Row>& rows) {
+void print_table(const std::vector<Row>& rows, const Console& console) {
     std::array<std::size_t, std::tuple_size_v<Row>> widths{};
     for (const Row& row : rows)
         for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
@@ -67,7 +67,7 @@ void print_table(const std::vector<Row>& rows) {
             line += row[c];
             if (c + 1 < row.size()) line += std::string(widths[c] - row[c].size() + 2, ' ');
         }
-        fmt::print("{}\n", line);
+        console.print("{}\n", line);
     }
 }
 
@@ -92,7 +92,7 @@ double seen_over_path(const Scene& scene) {
     return capture::share_seen(scene, caster, cameras);
 }
 
-void print_all() {
+void print_all(const Console& console) {
     std::vector<Row> rows{
         {"name", "triangles", "materials", "lights", "power [W] (R G B)", "bounds [m]", "seen", "frames"}};
     for (const scenes::EmbeddedScene& entry : scenes::catalogue()) {
@@ -101,10 +101,11 @@ void print_all() {
                         fmt::format("{}", scene.lights.size()), in_words(total_power(scene)),
                         bounds_of(scene), in_percent(seen_by_camera(scene)), frames_of(scene)});
     }
-    print_table(rows);
+    print_table(rows, console);
 }
 
-void write_thumbnails(const std::filesystem::path& file, std::vector<std::string> names, bool force) {
+void write_thumbnails(const std::filesystem::path& file, std::vector<std::string> names, bool force,
+                      const Console& console) {
     if (file.extension() != ".png")
         throw trace::UsageError(fmt::format("--thumbnails: found {}, expected a .png file", file.string()));
     if (std::filesystem::exists(file) && !force)
@@ -114,17 +115,17 @@ void write_thumbnails(const std::filesystem::path& file, std::vector<std::string
         for (const scenes::EmbeddedScene& entry : scenes::catalogue()) names.emplace_back(entry.name);
     std::vector<Scene> all;
     for (const std::string& name : names) all.push_back(scenes::load_scene(name));
-    Progress progress;
+    Progress progress(console);
     const capture::Image sheet = capture::contact_sheet(all, {}, [&](std::string_view, std::size_t done) {
         progress.update("thumbnails", "scenes", done, all.size());
     });
     capture::write_png(file, sheet, 1, capture::Tone::linear);
 }
 
-void print_details(const std::string& name_or_path) {
+void print_details(const std::string& name_or_path, const Console& console) {
     const Scene scene = scenes::load_scene(name_or_path);
-    const auto line = [](std::string_view label, const std::string& text) {
-        fmt::print("{:<22}{}\n", label, text);
+    const auto line = [&](std::string_view label, const std::string& text) {
+        console.print("{:<22}{}\n", label, text);
     };
     line("name", scene.name);
     for (const scenes::EmbeddedScene& entry : scenes::catalogue())
@@ -148,13 +149,13 @@ void print_details(const std::string& name_or_path) {
                                         scene.camera_path.size(), in_percent(seen_over_path(scene))));
     if (const auto& [x, y, z] = scene.recentred_by; x != 0 || y != 0 || z != 0)
         line("recentred", fmt::format("all coordinates of the file less {:.15g} {:.15g} {:.15g} m", x, y, z));
-    fmt::print("\nneeds of a capture\n");
+    console.print("\nneeds of a capture\n");
     const scenes::Needs needs = scenes::needs_of(scene);
     for (const scenes::Need* need : needs.list())
         line(fmt::format("  {}", need->part),
              fmt::format("{}: {}", need->needed ? "yes" : "no ", need->reason));
     if (scene.lights.empty()) return;
-    fmt::print("\nlights\n");
+    console.print("\nlights\n");
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const scenes::AreaLight& light = scene.lights[i];
         if (light.is_mesh()) {
@@ -171,36 +172,35 @@ void print_details(const std::string& name_or_path) {
 
 }  // namespace
 
-void add_scenes(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
-        "scenes", "Lists the embedded scenes, shows one scene in detail, or draws a contact sheet");
-    command->footer(
-        "Examples:\n"
-        "  regather scenes                 the embedded scenes\n"
-        "  regather scenes room            one of them: size, materials, lights, what a capture needs\n"
-        "  regather scenes my_scene.json   a scene file (docs/scene_format.md): checked, then shown\n"
-        "  regather scenes --thumbnails sheet.png room house my_scene.json");
+void add_scenes(Command& command) {
     struct Options {
         std::vector<std::string> names;
         std::string thumbnails;
         bool force = false;
     };
     auto options = std::make_shared<Options>();
-    command->add_option("SCENE", options->names,
-                        "an embedded scene's name, or a JSON file; several with --thumbnails");
-    command->add_option(
+    command.arguments("SCENE", options->names,
+                      "an embedded scene's name, or a JSON file; several with --thumbnails");
+    command.option(
         "--thumbnails", options->thumbnails,
-        "writes small renderings of the scenes (default: the embedded ones) with their names to this PNG");
-    command->add_flag("--force", options->force, "overwrites the PNG");
-    command->callback([options] {
-        if (!options->thumbnails.empty())
-            return write_thumbnails(options->thumbnails, options->names, options->force);
-        if (options->names.empty()) return print_all();
-        if (options->names.size() > 1)
+        "write small renderings of the scenes (without any: the embedded ones) with their names to this PNG");
+    command.flag("--force", options->force, "overwrite the PNG");
+    command.needs("--force", {"--thumbnails"});
+    command.footer(
+        "Examples:\n"
+        "  regather scenes                 the embedded scenes\n"
+        "  regather scenes room            one of them: size, materials, lights, what a capture needs\n"
+        "  regather scenes my_scene.json   a scene file (docs/scene_format.md): checked, then shown\n"
+        "  regather scenes --thumbnails sheet.png room house my_scene.json");
+    command.action(options, [](const Options& asked, const Console& console) {
+        if (!asked.thumbnails.empty())
+            return write_thumbnails(asked.thumbnails, asked.names, asked.force, console);
+        if (asked.names.empty()) return print_all(console);
+        if (asked.names.size() > 1)
             throw trace::UsageError(
                 fmt::format("SCENE: found '{}' after '{}', expected nothing more without --thumbnails",
-                            options->names[1], options->names[0]));
-        print_details(options->names[0]);
+                            asked.names[1], asked.names[0]));
+        print_details(asked.names[0], console);
     });
 }
 

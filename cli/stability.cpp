@@ -1,7 +1,6 @@
 // regather stability -- stiff and extreme cases, each against an analytic or double-precision truth.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -12,6 +11,7 @@
 
 #include "charts/chart.h"
 #include "charts/stability.h"
+#include "cli/command.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "cli/version.h"
@@ -36,12 +36,12 @@ std::vector<const study::CaseGroup*> wanted_groups(const Options& options) {
     return groups;
 }
 
-void run(const Options& options) {
+void run(const Options& options, const Console& console) {
     const auto groups = wanted_groups(options);
     if (options.list) {
         for (const study::CaseGroup* group : groups) {
-            fmt::print("{:<10} {}\n", group->name, group->summary);
-            for (const study::Case& one : group->cases()) fmt::print("    {}\n", one.name);
+            console.print("{:<10} {}\n", group->name, group->summary);
+            for (const study::Case& one : group->cases()) console.print("    {}\n", one.name);
         }
         return;
     }
@@ -53,24 +53,23 @@ void run(const Options& options) {
         for (study::Case& one : group->cases()) cases.emplace_back(group, std::move(one));
     std::vector<results::StabilityRow> rows;
     {
-        Progress progress;
+        Progress progress(console);
         for (const auto& [group, one] : cases) {
             progress.update(fmt::format("{}: {}", group->name, one.name), "cases", rows.size(), cases.size());
             rows.push_back(
                 study::run_case(*group, one, options.quick ? study::Effort::quick : study::Effort::full));
         }
     }
-    fmt::print("{}", charts::stability_table(rows));
+    console.print("{}", charts::stability_table(rows));
     if (!options.folder.empty()) {
         results::write_csv<results::StabilityRow>(csv, rows);
-        results::write_provenance(csv, {command_line(), version(), git_revision(), {}},
-                                  nlohmann::json{{"quick", options.quick}});
+        results::write_provenance(csv, provenance(console, {}), nlohmann::json{{"quick", options.quick}});
         charts::Rows all;
         all.stability = rows;
-        fmt::print("{}\n", csv.string());
+        console.print("{}\n", csv.string());
         const std::string kind = "stability";
         for (const charts::Drawn& drawn : charts::write_charts(options.folder, all, std::span(&kind, 1), {}))
-            for (const auto& file : drawn.files) fmt::print("{}\n", file.string());
+            for (const auto& file : drawn.files) console.print("{}\n", file.string());
     }
     std::size_t failed = 0;
     for (const results::StabilityRow& row : rows) failed += !row.passed.value_or(false);
@@ -79,22 +78,22 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_stability(CLI::App& app) {
+void add_stability(Command& command) {
     auto options = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("stability", "measure errors in stiff and extreme cases against what is allowed");
     std::string names;
     for (const study::CaseGroup& group : study::case_groups())
         names += fmt::format("{}{}", names.empty() ? "" : ", ", group.name);
-    command->add_option("--only", options->only, fmt::format("groups of cases: {}", names))->delimiter(',');
-    command->add_option("-o,--output", options->folder, "write stability.csv and the chart here");
-    command->add_flag("--quick", options->quick, "fewer rays, photons and samples");
-    command->add_flag("--list", options->list, "name the cases and stop");
-    command->add_flag("--force", options->force, "overwrite the CSV");
-    command->footer(
+    command.comma_list("--only", options->only, fmt::format("groups of cases: {}", names));
+    command.option("-o,--output", options->folder, "write stability.csv and the chart here");
+    command.flag("--quick", options->quick, "fewer rays, photons and samples");
+    command.flag("--list", options->list, "name the cases and stop");
+    command.flag("--force", options->force, "overwrite the CSV");
+    command.conflict("--list", {"--output", "--quick"});
+    command.needs("--force", {"--output"});
+    command.footer(
         "Exit code 1 when a case fails. Meaning and bounds of the cases: docs/stability.md\n"
         "Example:\n  regather stability --only leaks,lobes -o out/stability");
-    command->callback([options] { run(*options); });
+    command.action(options, run);
 }
 
 }  // namespace regather::cli

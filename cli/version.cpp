@@ -5,14 +5,6 @@
 #include "revision.h"
 
 namespace regather::cli {
-namespace {
-
-std::vector<std::string>& stored_command_line() {
-    static std::vector<std::string> words;
-    return words;
-}
-
-}  // namespace
 
 std::string version() {
     return REGATHER_VERSION;
@@ -24,11 +16,8 @@ std::string version_text() {
     return fmt::format("regather {} ({})", version(), git_revision());
 }
 
-void set_command_line(int argc, char** argv) {
-    stored_command_line().assign(argv, argv + argc);
-}
-const std::vector<std::string>& command_line() {
-    return stored_command_line();
+results::Provenance provenance(const Console& console, std::string trace_checksum) {
+    return {console.command_line, version(), git_revision(), std::move(trace_checksum)};
 }
 
 }  // namespace regather::cli

@@ -1,13 +1,13 @@
 // regather walk -- makes a trace of somebody else's photons and queries: builds the tree, records every walk.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
 
+#include "cli/command.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "spatial/photon_kd.h"
@@ -65,10 +65,7 @@ std::uint32_t greatest_pixel(const fs::path& columns, const OptionalColumn<std::
     return last;
 }
 
-void make_trace(const Options& options) {
-    if (!std::isfinite(options.radius))
-        throw trace::UsageError(
-            fmt::format("--radius: found {}, expected a finite number; 0: unlimited", options.radius));
+void make_trace(const Options& options, const Console& console) {
     const trace::MappedColumn photon_positions(options.columns / "photon_position.npy",
                                                trace::column_type<Vec3>());
     const trace::MappedColumn positions(options.columns / "query_position.npy", trace::column_type<Vec3>());
@@ -117,7 +114,7 @@ void make_trace(const Options& options) {
         options.radius > 0 ? static_cast<float>(options.radius) : std::numeric_limits<float>::infinity();
     const spatial::PhotonKd tree(heap);
     constexpr std::uint64_t batch = 1 << 20;
-    Progress progress;
+    Progress progress(console);
     for (std::uint64_t first = 0; first < queries || first == 0; first += batch) {
         const auto points = positions.rows<Vec3>().subspan(first, std::min(batch, queries - first));
         const spatial::Recording walks = spatial::record_walks(tree, points, options.k, radius);
@@ -131,7 +128,8 @@ void make_trace(const Options& options) {
     info.k = options.k;
     info.queries = queries;
     info.photons = heap.size();
-    info.parameters["radius"] = options.radius > 0 ? nlohmann::json(options.radius) : nlohmann::json(nullptr);
+    info.parameters["radius"] =
+        std::isfinite(radius) ? nlohmann::json(options.radius) : nlohmann::json(nullptr);
     info.parameters["k"] = options.k;
     const auto note = [&](const char* name, bool exists) {
         if (!exists) info.left_out.push_back({name, "it was not among the columns given"});
@@ -141,33 +139,28 @@ void make_trace(const Options& options) {
     note("query_leaf_kd", leaf_kd.exists());
     note("query_leaf_bvh", leaf_bvh.exists());
     writer.finish(info);
-    fmt::print("{} photons, {} queries, {} nodes visited\ntrace: {}\n", info.photons, info.queries,
-               info.visited_nodes, options.folder.string());
+    console.print("{} photons, {} queries, {} nodes visited\ntrace: {}\n", info.photons, info.queries,
+                  info.visited_nodes, options.folder.string());
 }
 
 }  // namespace
 
-void add_walk(CLI::App& app) {
+void add_walk(Command& command) {
     auto options = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("walk", "make a trace of your own photons and queries (.npy columns)");
     command
-        ->add_option(
+        .argument(
             "columns", options->columns,
             "folder with photon_position.npy and query_position.npy (float32, n x 3) and, if you have them, "
             "query_pixel.npy (uint32), query_direction.npy, query_weight.npy (float32, n x 3)")
-        ->required();
-    command->add_option("-o,--output", options->folder, "the trace's folder")->required();
-    command->add_option("--k", options->k, "photons of a search")
-        ->check(CLI::Range(1u, (1u << 31) - 1))
-        ->capture_default_str();
-    command->add_option("--radius", options->radius, "maximum radius [units of the positions]; 0: unlimited")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
-    command->add_option("--width", options->width, "image width that query_pixel counts with [pixels]");
-    command->add_flag("--force", options->force, "overwrite a finished trace");
-    command->footer("Example:\n  regather walk my_columns -o out/mine --k 50 --width 640");
-    command->callback([options] { make_trace(*options); });
+        .required();
+    command.option("-o,--output", options->folder, "the trace's folder").required();
+    command.option("--k", options->k, {1, (1u << 31) - 1}, "photons of a search");
+    command.option("--radius", options->radius, {.least = 0, .infinite = true},
+                   "maximum radius [units of the positions]; 0 or inf: unlimited");
+    command.option("--width", options->width, {1}, "image width that query_pixel counts with [pixels]");
+    command.flag("--force", options->force, "overwrite a finished trace");
+    command.footer("Example:\n  regather walk my_columns -o out/mine --k 50 --width 640");
+    command.action(options, make_trace);
 }
 
 }  // namespace regather::cli

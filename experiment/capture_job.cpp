@@ -111,13 +111,17 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
 
 }  // namespace
 
+std::uint32_t frames_of(const scenes::Scene& scene) {
+    return scene.camera_path.empty() ? 0 : scene.frames;
+}
+
 CaptureResult run(const CaptureJob& job, const ProgressListener& progress) {
     scenes::Scene scene = scenes::load_scene(job.scene);
     capture::CaptureConfig config = job.options.config();
     if (job.reads) {
-        config.columns.direction = job.reads->direction;
-        config.columns.leaf_kd = job.reads->leaf_kd;
-        config.columns.leaf_bvh = job.reads->leaf_bvh;
+        config.columns.direction = job.reads->direction || job.reads->captured;
+        config.columns.leaf_kd = job.reads->leaf_kd || job.reads->captured;
+        config.columns.leaf_bvh = job.reads->leaf_bvh || job.reads->captured;
     }
     CaptureResult result;
     if (job.options.frames.empty()) {
@@ -125,11 +129,7 @@ CaptureResult run(const CaptureJob& job, const ProgressListener& progress) {
         result.folders.push_back(job.folder);
         return result;
     }
-    if (scene.camera_path.empty())
-        throw trace::UsageError(
-            fmt::format("--frames: found {}, expected none: the scene {} has no camera path",
-                        job.options.frames, scene.name));
-    for (const std::uint32_t frame : parse_frames(job.options.frames, scene.frames)) {
+    for (const std::uint32_t frame : parse_frames(job.options.frames, frames_of(scene))) {
         const fs::path folder = frame_folder(job.folder, frame);
         scene.camera = scenes::camera_at(scene, frame);
         config.frame = frame;

@@ -26,6 +26,9 @@ struct CaptureResult {
     std::vector<std::filesystem::path> folders;  ///< One a frame; each holds image and traces.
 };
 
+/// Of its camera path; 0 when it has none.
+std::uint32_t frames_of(const scenes::Scene& scene);
+
 /// Keeps a finished capture of the same scene and parameters. A finished one of others: trace::UsageError,
 /// unless `force`.
 CaptureResult run(const CaptureJob& job, const ProgressListener& progress);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -16,13 +15,6 @@
 namespace regather::experiment {
 namespace {
 
-constexpr std::uint32_t most_pixels = 32768;
-constexpr std::uint32_t most_photons = (1u << 31) - 1, most_samples = 1u << 16;
-
-template <std::size_t n>
-std::vector<std::string> words(const std::array<const char*, n>& names) {
-    return {names.begin(), names.end()};
-}
 template <class Enum, std::size_t n>
 Enum chosen(const std::string& word, const std::array<const char*, n>& names, const char* what) {
     for (std::size_t i = 0; i < n; ++i)
@@ -31,77 +23,13 @@ Enum chosen(const std::string& word, const std::array<const char*, n>& names, co
         fmt::format("{}: found '{}', expected one of {}", what, word, fmt::join(names, ", ")));
 }
 float length(double value, const char* what) {
-    if (!std::isfinite(value) || value < 0)
+    if (!(value >= 0))
         throw trace::UsageError(
-            fmt::format("{}: found {}, expected a finite number, or 0: unlimited", what, value));
+            fmt::format("{}: found {}, expected a number from 0 up; 0 or inf: unlimited", what, value));
     return value > 0 ? static_cast<float>(value) : std::numeric_limits<float>::infinity();
 }
 
 }  // namespace
-
-void CaptureOptions::add_to(CLI::App& app) {
-    app.add_option("--width", width, "image width [pixels]")
-        ->check(CLI::Range(1u, most_pixels))
-        ->capture_default_str();
-    app.add_option("--height", height, "image height [pixels]")
-        ->check(CLI::Range(1u, most_pixels))
-        ->capture_default_str();
-    app.add_option("--samples", samples, "eye rays a pixel; one goes through its centre")
-        ->check(CLI::Range(1u, most_samples))
-        ->capture_default_str();
-    app.add_option("--mode", mode,
-                   "how photons are seen: by final gather rays (equation 3), or direct (equation 2)")
-        ->check(CLI::IsMember(words(capture::visualisation_names)))
-        ->capture_default_str();
-    app.add_option("--gather-rays", gather_rays, "final gather rays a pixel (N)")
-        ->check(CLI::Range(0u, 1u << 20))
-        ->capture_default_str();
-    app.add_option("--shadow-rays", shadow_rays,
-                   "shadow rays per shaded point and light, of up to four lights")
-        ->check(CLI::Range(0u, 1u << 20))
-        ->capture_default_str();
-    app.add_option("--photons", photons, "photons to store")
-        ->check(CLI::Range(0u, most_photons))
-        ->capture_default_str();
-    app.add_option("--k", k, "photons of a gather")
-        ->check(CLI::Range(1u, most_photons))
-        ->capture_default_str();
-    app.add_option("--radius", radius, "maximum radius of a gather [scene units]; 0: unlimited")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
-    app.add_option("--filter", filter, "weight of the photons of a gather by their distance")
-        ->check(CLI::IsMember(words(capture::filter_names)))
-        ->capture_default_str();
-    app.add_flag("!--no-surface-check", surface_check, "use photons of surfaces that face elsewhere, too");
-    app.add_option("--caustic-photons", caustic_photons, "photons of the caustic map; 0: no such map")
-        ->check(CLI::Range(0u, most_photons))
-        ->capture_default_str();
-    app.add_option("--caustic-k", caustic_k, "photons of a gather in the caustic map")
-        ->check(CLI::Range(1u, most_photons))
-        ->capture_default_str();
-    app.add_option("--caustic-radius", caustic_radius, "its maximum radius [scene units]; 0: unlimited")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
-    app.add_option("--caustic-filter", caustic_filter, "its filter")
-        ->check(CLI::IsMember(words(capture::filter_names)))
-        ->capture_default_str();
-    app.add_option("--keep", keep,
-                   "parts to build although the scene has no need of them (regather info SCENE lists them)")
-        ->delimiter(',');
-    app.add_option("--frames", frames,
-                   "frames of the camera path: 7, or 0,10,20, or 0:30:5 (from, below, step)");
-    app.add_option("--exposure", exposure, "of image.png: factor of the radiance; 0: by the image's mean")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
-    app.add_option("--tone", tone, "tone curve of image.png")
-        ->check(CLI::IsMember(words(capture::tone_names)))
-        ->capture_default_str();
-    app.add_option("--seed", seed, "of all random numbers")->capture_default_str();
-    app.add_option("--gather-order", gather_order,
-                   "ordering of the searches within a batch of pixels; changes the time, not the result")
-        ->capture_default_str();
-    app.add_flag("!--no-rays", rays, "leave the ray columns out");
-}
 
 capture::CaptureConfig CaptureOptions::config() const {
     capture::CaptureConfig config;
@@ -117,13 +45,13 @@ capture::CaptureConfig CaptureOptions::config() const {
         .seed = seed};
     config.photon = {.photons = photons, .seed = seed};
     config.gather = {.k = k,
-                     .radius = length(radius, "--radius"),
+                     .radius = length(radius, "radius"),
                      .filter = chosen<capture::Filter>(filter, capture::filter_names, "filter"),
                      .surface_check = surface_check};
     config.caustic = {
         .photons = caustic_photons,
         .k = caustic_k,
-        .radius = length(caustic_radius, "--caustic-radius"),
+        .radius = length(caustic_radius, "caustic_radius"),
         .filter = chosen<capture::Filter>(caustic_filter, capture::filter_names, "caustic_filter")};
     config.keep = {keep.begin(), keep.end()};
     tone_curve();
@@ -131,7 +59,7 @@ capture::CaptureConfig CaptureOptions::config() const {
     const std::shared_ptr<reorder::Ordering> ordering = reorder::make_ordering(gather_order);
     if (ordering->reads().leaf_kd || ordering->reads().leaf_bvh)
         throw trace::UsageError(fmt::format(
-            "--gather-order: found {}, expected an ordering that needs no leaf labels", gather_order));
+            "gather_order: found {}, expected an ordering that needs no leaf labels", gather_order));
     config.order = [ordering, w = width, h = height](const capture::Queries& queries) {
         const reorder::Workload work{.position = queries.position,
                                      .direction = queries.direction,

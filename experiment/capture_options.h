@@ -7,22 +7,21 @@
 
 #include "capture/capture.h"
 
-namespace CLI {
-class App;
-}
-
 namespace regather::experiment {
+
+inline constexpr std::uint32_t most_pixels = 32768;  ///< Width or height of an image.
+inline constexpr std::uint32_t most_photons = (1u << 31) - 1, most_samples = 1u << 16, most_rays = 1u << 20;
 
 /// Defaults: the paper's Tables 1 and 2.
 struct CaptureOptions {
     std::uint32_t width = 512, height = 512, samples = 1, gather_rays = 100, shadow_rays = 16,
                   photons = 1'000'000, k = 100;
-    double radius = 0;  ///< [scene units]; 0: unlimited
+    double radius = 0;  ///< [scene units]; 0 or infinity: unlimited
     std::string mode = "final-gather",
                 filter = "none";  ///< capture::visualisation_names, capture::filter_names
     bool surface_check = true;
     std::uint32_t caustic_photons = 100'000, caustic_k = 60;
-    double caustic_radius = 0;  ///< [scene units]; 0: unlimited
+    double caustic_radius = 0;  ///< [scene units]; 0 or infinity: unlimited
     std::string caustic_filter = "cone";
     std::vector<std::string> keep;  ///< Parts that the scene has no need of.
     std::string frames;   ///< Of the camera path, as of experiment/frames.h; empty: the standing camera.
@@ -33,7 +32,6 @@ struct CaptureOptions {
         "hilbert";     ///< Of the searches within a batch of pixels; changes the time only.
     bool rays = true;  ///< Store the rays, too.
 
-    void add_to(CLI::App& app);
     /// Throws trace::UsageError for a value out of range or an unknown ordering.
     capture::CaptureConfig config() const;
     capture::Tone tone_curve() const;  ///< Throws as config().

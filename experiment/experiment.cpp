@@ -8,9 +8,14 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "cachesim/cache_list.h"
+#include "experiment/capture_job.h"
+#include "experiment/frames.h"
 #include "experiment/keys.h"
 #include "experiment/measurement.h"
+#include "reorder/shared_library.h"
 #include "scenes/loader.h"
+#include "scenes/needs.h"
 #include "trace/error.h"
 #include "trace/file.h"
 #include "trace/size.h"
@@ -39,9 +44,10 @@ std::vector<cachesim::CacheConfig> listed_caches(const Object& owner) {
         for (const std::string& size : entry.list("size", {"128K"}))
             for (const std::string& line : entry.list("line", {"128"}))
                 for (const std::string& ways : entry.list("ways", {"8"}))
-                    caches.push_back(at(owner, fmt::format("caches[{}]", i), [&] {
-                        return parse_caches(fmt::format("{}:{}:{}", size, line, ways)).front();
-                    }));
+                    for (const cachesim::CacheConfig& cache : at(owner, fmt::format("caches[{}]", i), [&] {
+                             return cachesim::parse_caches(fmt::format("{}:{}:{}", size, line, ways));
+                         }))
+                        caches.push_back(cache);
     }
     return caches;
 }
@@ -62,11 +68,24 @@ std::vector<std::string> specs(const json& entry, const Object& object, const st
     return all;
 }
 
-/// XXH3-64 of the file when `name` is a library's path.
-std::string library_digest(const std::string& name) {
-    if (!name.ends_with(".so")) return {};
-    const std::string bytes = trace::read_file(name);
+/// XXH3-64 of the bytes of a user's library; empty for an ordering of ours.
+std::string library_digest(const reorder::Ordering& ordering) {
+    const auto* library = dynamic_cast<const reorder::SharedLibrary*>(&ordering);
+    if (!library) return {};
+    const std::string bytes = trace::read_file(library->path());
     return fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
+}
+
+/// An ordering through a cache is a row: each may be asked for once.
+void refuse_repeated_rows(const std::vector<Trial>& trials, const Object& in) {
+    std::set<std::string> seen;
+    for (const Trial& trial : trials)
+        for (const cachesim::CacheConfig& cache : trial.caches)
+            if (!seen.insert(trial.ordering.spec.text + ' ' + cachesim::cache_text(cache)).second)
+                in.refuse("orderings",
+                          fmt::format("{} through the cache {} twice", trial.ordering.spec.text,
+                                      cachesim::cache_text(cache)),
+                          "each once");
 }
 
 }  // namespace
@@ -100,9 +119,16 @@ Experiment load_experiment(const std::filesystem::path& path) {
     // A scene file is named relative to the experiment that uses it.
     if (experiment.scene.ends_with(".json") && std::filesystem::path(experiment.scene).is_relative())
         experiment.scene = (path.parent_path() / experiment.scene).string();
-    at(in, "scene", [&] { return scenes::load_scene(experiment.scene); });
+    const scenes::Scene scene = at(in, "scene", [&] { return scenes::load_scene(experiment.scene); });
     if (in.has("capture")) experiment.capture = capture_options(root["capture"], path.string());
     at(in, "capture", [&] { return experiment.capture.config(); });
+    if (!experiment.capture.frames.empty())
+        at(in, "capture.frames", [&] { return parse_frames(experiment.capture.frames, frames_of(scene)); });
+    at(in, "capture.keep", [&] {
+        scenes::Needs needs = scenes::needs_of(scene);
+        needs.keep(experiment.capture.config().keep);
+        return needs;
+    });
     if (in.has("onchip")) {
         const std::vector<std::string> sizes = in.list("onchip", {});
         if (sizes.size() != 1) in.refuse("onchip", root["onchip"].dump(), "one size");
@@ -131,27 +157,26 @@ Experiment load_experiment(const std::filesystem::path& path) {
                 known.push_back(key);  // the ordering knows its own keys
         const Object object(entry, known, path.string(), place);
         const std::string name = object.text("ordering");
-        for (const std::string& spec : specs(entry, object, name))
-            experiment.trials.push_back({at(in, place, [&] { return reorder::parse_ordering(spec); }),
+        for (const std::string& spec : specs(entry, object, name)) {
+            reorder::ParsedOrdering parsed = at(in, place, [&] { return reorder::parse_ordering(spec); });
+            std::string digest = library_digest(*parsed.ordering);
+            experiment.trials.push_back({std::move(parsed),
                                          object.has("caches") ? listed_caches(object) : caches,
-                                         library_digest(name)});
+                                         std::move(digest)});
+        }
         if (experiment.method.sampling)
             at(in, "sample", [&] {
                 replay::SetSample::check(experiment.trials.back().caches, *experiment.method.sampling);
                 return 0;
             });
     }
+    refuse_repeated_rows(experiment.trials, in);
     return experiment;
 }
 
 reorder::Reads reads(const Experiment& experiment) {
     reorder::Reads all;
-    for (const Trial& trial : experiment.trials) {
-        const reorder::Reads one = trial.ordering.ordering->reads();
-        all.direction |= one.direction;
-        all.leaf_kd |= one.leaf_kd;
-        all.leaf_bvh |= one.leaf_bvh;
-    }
+    for (const Trial& trial : experiment.trials) all |= trial.ordering.ordering->reads();
     return all;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "trace/error.h"
+#include "trace/text.h"
 
 namespace regather::experiment {
 namespace {
@@ -25,10 +26,13 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }  // namespace
 
 std::vector<std::uint32_t> parse_frames(const std::string& text, std::uint32_t count) {
+    if (count == 0)
+        throw trace::UsageError(fmt::format("frames: found '{}', expected none: the scene has no camera path",
+                                            trace::shown(text)));
     const auto refuse = [&] {
         throw trace::UsageError(
-            fmt::format("--frames: found '{}', expected frames of 0 to {}: A, or A,B,C, or FROM:BELOW[:STEP]",
-                        text, count == 0 ? 0 : count - 1));
+            fmt::format("frames: found '{}', expected frames of 0 to {}: A, or A,B,C, or FROM:BELOW[:STEP]",
+                        trace::shown(text), count - 1));
     };
     const auto number = [&](std::string_view digits, std::uint32_t most) {
         std::uint32_t value = 0;

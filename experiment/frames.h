@@ -8,8 +8,8 @@
 
 namespace regather::experiment {
 
-/// The frames in the order given; all below `count`. Throws trace::UsageError; also for an empty or repeated
-/// selection.
+/// The frames in the order given; all below `count`, which is 0 for a scene without a camera path. Throws
+/// trace::UsageError; also for an empty or repeated selection.
 std::vector<std::uint32_t> parse_frames(const std::string& text, std::uint32_t count);
 
 /// Where a frame of a capture lies: FOLDER/frame-0005.

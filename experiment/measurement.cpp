@@ -2,88 +2,31 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include <set>
 
+#include "experiment/workload.h"
 #include "replay/buffered.h"
 #include "replay/levels.h"
 #include "trace/error.h"
-#include "trace/size.h"
+#include "trace/text.h"
 
 namespace regather::experiment {
 
-namespace {
-
-std::vector<std::string_view> split(std::string_view list, char at) {
-    std::vector<std::string_view> parts;
-    for (std::size_t next; (next = list.find(at)) != list.npos; list.remove_prefix(next + 1))
-        parts.push_back(list.substr(0, next));
-    parts.push_back(list);
-    return parts;
-}
-
-}  // namespace
-
-std::vector<cachesim::CacheConfig> parse_caches(std::string_view text) {
-    const auto refuse = [&] {
-        throw trace::UsageError(fmt::format(
-            "cache: found '{}', expected SIZE:LINE:WAYS as in 128K:128:8, 16K:64:full or 16K,32K:128:1,2,4",
-            text));
-    };
-    const std::vector<std::string_view> fields = split(text, ':');
-    if (fields.size() != 3) refuse();
-    std::vector<cachesim::CacheConfig> caches;
-    for (const std::string_view size : split(fields[0], ','))
-        for (const std::string_view line : split(fields[1], ','))
-            for (const std::string_view ways : split(fields[2], ',')) {
-                cachesim::CacheConfig& cache = caches.emplace_back();
-                cache.size_bytes = trace::parse_size(size);
-                const std::uint64_t line_bytes = trace::parse_size(line);
-                if (line_bytes > 0xffffffffu) refuse();
-                cache.line_bytes = static_cast<std::uint32_t>(line_bytes);
-                if (ways == "full") {
-                    cache.ways = cachesim::fully_associative;
-                } else {
-                    const auto [end, error] =
-                        std::from_chars(ways.data(), ways.data() + ways.size(), cache.ways);
-                    if (error != std::errc{} || end != ways.data() + ways.size() || cache.ways == 0) refuse();
-                }
-                cachesim::check(cache);
-            }
-    return caches;
-}
-
-std::string cache_text(const cachesim::CacheConfig& cache) {
-    return fmt::format("{}:{}:{}", cache.size_bytes, cache.line_bytes,
-                       cache.ways == cachesim::fully_associative ? "full" : std::to_string(cache.ways));
-}
-
 Orderings parse_orderings(std::span<const std::string> specs) {
     Orderings orderings;
+    std::set<std::string> seen;
     for (const std::string& spec : specs) {
-        orderings.all.push_back(reorder::parse_ordering(spec));
-        const reorder::Reads one = orderings.all.back().ordering->reads();
-        reorder::Reads& all = orderings.reads;
-        all = {all.direction || one.direction, all.leaf_kd || one.leaf_kd, all.leaf_bvh || one.leaf_bvh};
+        const reorder::ParsedOrdering& parsed = orderings.all.emplace_back(reorder::parse_ordering(spec));
+        orderings.reads |= parsed.ordering->reads();
+        if (!seen.insert(parsed.spec.text).second)
+            throw trace::UsageError(fmt::format("ordering {}: found {} twice, expected each ordering once",
+                                                trace::shown(spec), parsed.spec.text));
     }
     return orderings;
 }
 
 Measurement::Measurement(trace::TraceReader& trace, const reorder::Reads& reads, std::uint64_t onchip_bytes)
-    : trace_(trace), walks_(trace), onchip_bytes_(onchip_bytes) {
-    const trace::TraceInfo& info = trace.info();
-    if (info.image_width == 0 || info.image_height == 0)
-        throw trace::DataError(fmt::format("{}: {}: found 0, expected at least one pixel",
-                                           (trace.folder() / "trace.json").string(),
-                                           info.image_width == 0 ? "image_width" : "image_height"));
-    work_.position = trace.column<trace::Vec3>("query_position");
-    work_.pixel = trace.column<std::uint32_t>("query_pixel");
-    if (reads.direction) work_.direction = trace.column<trace::Vec3>("query_direction");
-    if (reads.leaf_kd) work_.leaf_kd = trace.column<std::uint32_t>("query_leaf_kd");
-    if (reads.leaf_bvh) work_.leaf_bvh = trace.column<std::uint32_t>("query_leaf_bvh");
-    work_.bounds = trace::bounds_of(work_.position);
-    work_.image_width = trace.info().image_width;
-    work_.image_height = trace.info().image_height;
-}
+    : trace_(trace), walks_(trace), work_(workload(trace, reads)), onchip_bytes_(onchip_bytes) {}
 
 reorder::Ordered Measurement::order(const reorder::Ordering& ordering) const {
     return reorder::order(ordering, work_, onchip_bytes_);

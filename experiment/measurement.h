@@ -19,12 +19,8 @@
 
 namespace regather::experiment {
 
-/// "128K:128:8", "128K:128:full", or lists that are multiplied out, "16K,32K:128:1,2,full". Throws
-/// trace::UsageError.
-std::vector<cachesim::CacheConfig> parse_caches(std::string_view text);
-std::string cache_text(const cachesim::CacheConfig& cache);  ///< "131072:128:8"
-
-/// Orderings by their specs, and the columns that any of them looks at. Throws as reorder::parse_ordering().
+/// Orderings by their specs, and the columns that any of them looks at. Throws as reorder::parse_ordering(),
+/// and trace::UsageError for one that is there twice.
 struct Orderings {
     std::vector<reorder::ParsedOrdering> all;
     reorder::Reads reads;

@@ -5,13 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "trace/error.h"
-#include "trace/file.h"
 
 namespace regather::experiment {
 
 using nlohmann::json;
 
-void write_revisits(const std::filesystem::path& path, const replay::Revisits& revisits) {
+std::string text_of(const replay::Revisits& revisits) {
     json lines = json::array();
     for (const auto& [line_bytes, counts] : revisits) {
         json levels = json::array();
@@ -23,13 +22,13 @@ void write_revisits(const std::filesystem::path& path, const replay::Revisits& r
                          {"levels", levels},
                          {"by_distance", counts.by_distance}});
     }
-    trace::write_whole(path, lines.dump(1) + '\n');
+    return lines.dump(1) + '\n';
 }
 
-replay::Revisits read_revisits(const std::filesystem::path& path) {
+replay::Revisits revisits_in(std::string_view text, const std::filesystem::path& path) {
     try {
         replay::Revisits revisits;
-        const json root = json::parse(trace::read_file(path));
+        const json root = json::parse(text);
         for (const json& line : root.get_ref<const json::array_t&>()) {
             cachesim::FamilyCounts& counts = revisits[line.at("line_bytes").get<std::uint32_t>()];
             line.at("accesses").get_to(counts.accesses);

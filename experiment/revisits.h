@@ -1,15 +1,15 @@
-// experiment/revisits.h -- what no order changes (replay::Revisits), kept in a file between runs.
+// experiment/revisits.h -- what no order changes (replay::Revisits), as text, to be kept between runs.
 #pragma once
 #include <filesystem>
-#include <optional>
+#include <string>
+#include <string_view>
 
 #include "replay/replay.h"
 
 namespace regather::experiment {
 
-/// Whole or not at all.
-void write_revisits(const std::filesystem::path& path, const replay::Revisits& revisits);
-/// Throws trace::DataError when the file is not what write_revisits() writes.
-replay::Revisits read_revisits(const std::filesystem::path& path);
+std::string text_of(const replay::Revisits& revisits);
+/// Throws trace::DataError that names the file when the text is not what text_of() writes.
+replay::Revisits revisits_in(std::string_view text, const std::filesystem::path& file);
 
 }  // namespace regather::experiment

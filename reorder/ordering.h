@@ -29,6 +29,15 @@ inline constexpr std::uint64_t pixel_state_bytes = 48;
 /// Which columns an ordering reads besides position and pixel.
 struct Reads {
     bool direction = false, leaf_kd = false, leaf_bvh = false;
+    bool captured = false;  ///< Whichever were captured: what is missing is empty.
+
+    Reads& operator|=(const Reads& other) {
+        direction |= other.direction;
+        leaf_kd |= other.leaf_kd;
+        leaf_bvh |= other.leaf_bvh;
+        captured |= other.captured;
+        return *this;
+    }
 };
 
 /// All that an ordering may look at: the queries in capture order (pixels in row order, samples in a pixel

@@ -20,6 +20,9 @@ public:
 
     const std::string& name() const { return name_; }  ///< As the library calls its ordering.
     const std::string& parameters() const { return parameters_; }
+    const std::filesystem::path& path() const { return path_; }
+    /// Nobody knows what it looks at: it is given all that there is.
+    Reads reads() const override { return {.captured = true}; }
     Cost assign_keys(const Workload& work, std::uint64_t onchip_bytes,
                      std::span<std::uint64_t> keys) const override;
 

@@ -15,7 +15,7 @@
 namespace regather::study {
 namespace {
 
-/// As image.png shows it: 1 - exp(-x) under the reference's exposure.
+/// Display values before their sRGB encoding: 1 - exp(-x), the curve of image.png, all under the reference's exposure.
 capture::Image view(const capture::Image& image, float exposure) {
     capture::Image out = image;
     for (trace::Vec3& pixel : out.pixels)
@@ -224,7 +224,7 @@ double CostModel::photon_work(const Setting& setting) const {
 }
 
 double CostModel::render_work(const Setting& setting) const {
-    // A gather ray and the nodes on the way down weigh about as much as 50 photons.
+    // In photons looked at: a gather ray and the nodes on the way down are taken for 50, an eye path for 100.
     return static_cast<double>(pixels_) * setting.samples *
            ((setting.mode == capture::Visualisation::direct ? 1.0 : setting.gather_rays) *
                 (50.0 + setting.k) +

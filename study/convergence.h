@@ -93,7 +93,7 @@ struct LadderRun {
     std::span<const Setting> settings;
     std::span<const results::ConvergenceRow> known;  ///< Not measured again.
     double seconds = 120;
-    /// Told before and while a setting is rendered: it, and the share of all predicted work that is done.
+    /// Told before and while a setting is rendered: it, and the share of the predicted time that has passed.
     std::function<void(const Setting&, double share)> progress;
     std::function<void(const Setting&, const Measured&)> measured;
 };

@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -10,8 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "cli/commands.h"
-#include "trace/error.h"
+#include "tests/cli/expect.h"
 #include "trace/npy.h"
 
 namespace regather::cli {
@@ -33,27 +31,26 @@ protected:
     void TearDown() override { std::filesystem::remove_all(folder_); }
 
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    std::string content(const std::string& name) const {
-        std::ifstream in(file(name), std::ios::binary);
-        return {std::istreambuf_iterator<char>(in), {}};
-    }
+    std::string content(const std::string& name) const { return cli::content(file(name)); }
     std::size_t files() const {
         return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
     }
-    static void run(std::vector<std::string> arguments) {
-        CLI::App app;
-        add_cachesim(app);
+    static Outcome outcome(std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), "cachesim");
-        std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
-        app.parse(arguments);
+        return regather(arguments);
+    }
+    /// What is printed, when all is well.
+    static std::string run(const std::vector<std::string>& arguments) {
+        const Outcome made = outcome(arguments);
+        EXPECT_EQ(made.exit_code, 0);
+        EXPECT_EQ(made.err, "");
+        return made.out;
     }
     static std::string usage_error(const std::vector<std::string>& arguments) {
-        try {
-            run(arguments);
-        } catch (const trace::UsageError& error) {
-            return error.what();
-        }
-        return "accepted";
+        const Outcome made = outcome(arguments);
+        if (made.exit_code == 0) return "accepted";
+        EXPECT_EQ(made.exit_code, bad_usage) << made.err;
+        return made.err;
     }
 
     std::filesystem::path folder_;
@@ -92,10 +89,9 @@ TEST_F(CachesimCommand, SizesStraddleLines) {
 
 TEST_F(CachesimCommand, DinTextGoesToStdoutWithoutACsv) {
     std::ofstream(file("program.din")) << "2 0\n0 40\n1 44\n2 4\n";
-    testing::internal::CaptureStdout();
-    run({file("program.din"), "--size", "4K", "--line", "64", "--ways", "2"});
     // Lines 0, 1, 1*, 0; the dirty line is written back at the end.
-    EXPECT_EQ(testing::internal::GetCapturedStdout(), header + "lru,4096,64,2,4,2,2,2,0,0,1,0,192\n");
+    EXPECT_EQ(run({file("program.din"), "--size", "4K", "--line", "64", "--ways", "2"}),
+              header + "lru,4096,64,2,4,2,2,2,0,0,1,0,192\n");
 }
 
 /// The rows of tests/cachesim/din/NAME.din, whose outcomes stand in its comments, access by access.
@@ -108,9 +104,7 @@ protected:
     }
     std::string rows(const std::string& name, std::vector<std::string> arguments) const {
         arguments.insert(arguments.begin(), std::string(source_) + "/tests/cachesim/din/" + name);
-        testing::internal::CaptureStdout();
-        run(arguments);
-        const std::string table = testing::internal::GetCapturedStdout();
+        const std::string table = run(arguments);
         EXPECT_EQ(table.substr(0, header.size()), header);
         return table.substr(header.size());
     }
@@ -186,9 +180,10 @@ TEST_F(CachesimCommand, AFileIsOverwrittenOnlyByForce) {
 
 TEST_F(CachesimCommand, ARefusedTraceLeavesNoTable) {
     std::ofstream(file("program.din")) << "0 0\n0 zero\n";
-    EXPECT_THROW(run({file("program.din"), "--size", "1K", "--line", "64", "--ways", "1", "--csv",
-                      file("misses.csv")}),
-                 trace::DataError);
+    EXPECT_EQ(outcome({file("program.din"), "--size", "1K", "--line", "64", "--ways", "1", "--csv",
+                       file("misses.csv")})
+                  .exit_code,
+              bad_data);
     EXPECT_EQ(files(), 3u);
 }
 
@@ -196,15 +191,15 @@ TEST_F(CachesimCommand, ImpossibleRequestsSayWhatWasFound) {
     const auto with = [&](const char* size, const char* line, const char* ways) {
         return usage_error({file("addresses.npy"), "--size", size, "--line", line, "--ways", ways});
     };
-    EXPECT_THAT(with("1K,1000", "64", "1"),
+    EXPECT_THAT(with("1000", "64", "1"),
                 HasSubstr("--size 1000 --line 64 --ways 1 --policy lru: size_bytes: found 1000, expected"));
     EXPECT_THAT(with("1K", "48", "1"), HasSubstr("line_bytes: found 48, expected a power of two"));
-    EXPECT_THAT(with("1K", "64", "8,3"), HasSubstr("--ways 3 --policy lru: ways: found 3 ways of 16 lines"));
-    EXPECT_THAT(with("1K", "64", "0"), HasSubstr("--ways: found '0'"));
+    EXPECT_THAT(with("1K", "64", "3"), HasSubstr("--ways 3 --policy lru: ways: found 3 ways of 16 lines"));
+    EXPECT_THAT(with("1K", "64", "0"), HasSubstr("ways: found '0'"));
     EXPECT_THAT(with("1K", "64", "all"),
-                HasSubstr("--ways: found 'all', expected a number from 1 up, or full"));
+                HasSubstr("ways: found 'all', expected a whole number from 1 to 4294967295, or full"));
     EXPECT_THAT(with("1K,", "64", "1"), HasSubstr("size: found ''"));
-    EXPECT_THAT(with("1K", "4G", "1"), HasSubstr("--line: found 4G"));
+    EXPECT_THAT(with("1K", "4G", "1"), HasSubstr("line: found '4G'"));
 }
 
 TEST_F(CachesimCommand, ImpossiblePoliciesSayWhatWasFound) {
@@ -214,7 +209,7 @@ TEST_F(CachesimCommand, ImpossiblePoliciesSayWhatWasFound) {
     };
     EXPECT_EQ(with({"--policy", "lru,srrip,opt", "--csv", file("misses.csv")}), "accepted");
     EXPECT_THAT(
-        with({"--policy", "lru,plru"}),
+        with({"--policy", "plru"}),
         HasSubstr("--ways 3 --policy plru: ways: found 3 ways with policy plru, expected a power of"));
     EXPECT_THAT(with({"--policy", "mru"}), HasSubstr("policy: found 'mru', expected one of: lru, fifo"));
     EXPECT_THAT(with({"--policy", "lru,"}), HasSubstr("policy: found ''"));
@@ -231,12 +226,19 @@ TEST_F(CachesimCommand, ImpossiblePoliciesSayWhatWasFound) {
     EXPECT_FALSE(std::filesystem::exists(file("opt.csv")));
 }
 
-TEST_F(CachesimCommand, HelpShowsTwoExamples) {
-    CLI::App app;
-    add_cachesim(app);
-    const std::string help = app.get_subcommand("cachesim")->help();
-    EXPECT_THAT(help, HasSubstr("regather cachesim addresses.npy --size 16K,128K"));
-    EXPECT_THAT(help, HasSubstr("regather cachesim program.din"));
+TEST_F(CachesimCommand, AnImpossibleCombinationIsLeftOutAndSaid) {
+    const Outcome made =
+        outcome({file("addresses.npy"), "--size", "1K,1000", "--line", "64", "--ways", "1,3"});
+    EXPECT_EQ(made.exit_code, 0);
+    EXPECT_EQ(made.out, header + "lru,1024,64,1,6,2,4,4,0,0,0,0,256\n");
+    EXPECT_EQ(std::count(made.err.begin(), made.err.end(), '\n'), 3) << made.err;
+    for (const char* left_out : {"--size 1024 --line 64 --ways 3", "--size 1000 --line 64 --ways 1",
+                                 "--size 1000 --line 64 --ways 3"})
+        EXPECT_THAT(made.err, HasSubstr(std::string("regather: left out ") + left_out));
+    EXPECT_THAT(usage_error({file("addresses.npy"), "--size", "1000", "--line", "64", "--ways", "1,3"}),
+                HasSubstr("--size 1000 --line 64 --ways 1"));
+    EXPECT_THAT(usage_error({file("addresses.npy"), "--size", "1K,1024", "--line", "64", "--ways", "1"}),
+                HasSubstr("found twice"));
 }
 
 TEST_F(CachesimCommand, AllLruTellsWhatEachCacheAskedForAloneTells) {

@@ -1,5 +1,4 @@
-// tests/cli/expect.h -- what every run of the binary must show, by its exit code; and one small capture to
-// work with.
+// tests/cli/expect.h -- what every command must show, by its exit code; and one small capture to work with.
 #pragma once
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -31,8 +30,6 @@ inline void expect_refused(int exit_code, const std::vector<std::string>& words,
     for (const std::string& part : parts)
         EXPECT_THAT(outcome.err, testing::HasSubstr(part)) << testing::PrintToString(words);
 }
-
-inline constexpr int bad_usage = 2, bad_data = 3, run_failed = 1;
 
 /// The words of a capture of the scene `box` that takes a moment.
 inline std::vector<std::string> small_capture(const std::filesystem::path& folder) {

@@ -1,9 +1,4 @@
 // Machines at the command line: what is listed, what a trace gives, what is refused.
-#include "cli/machine.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "tests/cli/expect.h"
 
 namespace regather::cli {
@@ -76,7 +71,7 @@ TEST(MachineCommand, RefusesBadFilesAndUnknownNames) {
     expect_refused(bad_data, {"cachesim", trace, "--machine", bad}, {"bad.json: levels[1].ways: found 0"});
     expect_refused(bad_data, {"machines", (scratch / "no.json").string()}, {"no.json: cannot be read"});
     expect_refused(bad_usage, {"machines", "gpu-a10"}, {"unknown machine 'gpu-a10'", "\"gpu-a100\""});
-    expect_refused(bad_usage, {"cachesim", trace, "--machine", ""}, {"--size"});
+    expect_refused(bad_usage, {"cachesim", trace, "--machine", ""}, {"--machine", "''"});
     expect_refused(bad_usage, {"cachesim", trace, "--machine", "paper-128k,"}, {"unknown machine ''"});
     expect_refused(bad_usage, {"cachesim", trace, "--machine", "paper-128k", "--size", "1K"},
                    {"--machine", "--size"});

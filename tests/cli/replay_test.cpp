@@ -195,12 +195,15 @@ TEST(Replay, WhatCannotBeSampledIsAUsageError) {
     };
     refused({"2K:64:1", "--classes", "--sample", "4"}, {"--classes", "--sample"});
     refused({"2K:64:1", "--sample", "3"}, {"1/3"});
-    refused({"2K:64:1", "--sample", "0"}, {"1/0"});
+    refused({"2K:64:1", "--sample", "0"}, {"--sample", "'0'", "from 1 to 1024"});
     refused({"2K:64:1", "--sample", "-4"}, {"--sample"});
     refused({"2K:64:1", "--sample", "32"}, {"at least 64 sets"});
     refused({"2K:64:1,full", "--sample", "4"}, {"all"});
     refused({"1K,2K:64", "--sample", "4"}, {"SIZE:LINE:WAYS"});
-    refused({"2K:64:1,"}, {"SIZE:LINE:WAYS"});
+    refused({"2K:64:1,"}, {"2K:64:1,", "ways", "''"});
+    refused({"2K:64:1", "1K,2K:64:1"}, {"2048:64:1 twice"});
+    expect_refused(bad_usage, {"replay", "x", "--order", "naive", "hilbert", "hilbert:bits=16"},
+                   {"hilbert", "twice"});
 }
 
 struct Damage {

@@ -1,8 +1,12 @@
 // `regather run`: a whole experiment, taken up where it stopped.
 #include "experiment/experiment.h"
 
+#include <signal.h>
+
 #include <nlohmann/json.hpp>
 
+#include "cli/version.h"
+#include "experiment/kept.h"
 #include "results/csv.h"
 #include "tests/cli/expect.h"
 #include "trace/error.h"
@@ -30,9 +34,7 @@ protected:
     std::vector<fs::path> parts() const {
         std::vector<fs::path> found;
         for (const auto& entry : fs::directory_iterator(folder_ / "parts"))
-            if (entry.path().extension() == ".csv" &&
-                !entry.path().filename().string().starts_with("compulsory"))
-                found.push_back(entry.path());
+            if (entry.path().filename().string().starts_with("rows-")) found.push_back(entry.path());
         std::sort(found.begin(), found.end());
         return found;
     }
@@ -44,7 +46,7 @@ protected:
         if (found.size() != 1) throw std::runtime_error("expected one file of revisits");
         return found.front();
     }
-    /// As the binary would refuse it, without starting one.
+    /// As the command would refuse it.
     void refused(const std::string& text, const std::vector<std::string>& parts_of_message) const {
         write(file_, text);
         try {
@@ -148,31 +150,61 @@ TEST_F(Run, AnotherCaptureNeedsForce) {
     EXPECT_NE(content(folder_ / "rows.csv"), before.at("rows.csv"));
 }
 
-TEST_F(Run, ADamagedPartIsRefusedByName) {
+/// The rows without the seconds that were measured.
+std::vector<std::vector<std::uint64_t>> counts(const fs::path& csv) {
+    std::vector<std::vector<std::uint64_t>> all;
+    for (const results::Row& row : results::read_csv(csv))
+        all.push_back({*row.cache_bytes, *row.queries, *row.accesses, *row.misses, *row.compulsory_bytes,
+                       *row.key_ops});
+    return all;
+}
+
+TEST_F(Run, ADamagedPartIsMadeAgain) {
     expect_done(words());
+    const auto before = counts(folder_ / "rows.csv");
     const fs::path part = parts().front();
-    const std::string name = part.filename().string(), whole = content(part);
-    const std::size_t header = whole.find('\n') + 1, row = whole.find('\n', header) + 1;
-    // Within the header, after it, within the first row, after that, and within the last.
-    for (const std::size_t length : {header / 2, header, (header + row) / 2, row, whole.size() - 20}) {
-        write(part, whole.substr(0, length));
-        const Outcome outcome = regather(words());
-        EXPECT_EQ(outcome.exit_code, bad_data) << length;
-        EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr(name), HasSubstr("expected"))) << length;
+    const std::string whole = content(part);
+    // Cut in its header and its rows, a digit changed that leaves valid rows, and bytes behind the end.
+    std::string changed = whole;
+    const std::size_t digit = whole.rfind(",0.") - 1;
+    changed[digit] = changed[digit] == '1' ? '2' : '1';
+    for (const std::string& damaged :
+         {std::string(), whole.substr(0, 10), whole.substr(0, whole.size() - 20), changed, whole + "\n"}) {
+        write(part, damaged);
+        expect_done(words());
+        EXPECT_EQ(counts(folder_ / "rows.csv"), before);
+        EXPECT_NE(content(part), damaged);
     }
-    write(part, whole.substr(0, (header + row) / 2));
-    expect_refused(bad_data, {"chart", part.string(), "-o", (scratch_ / "charts").string()}, {name, "line"});
+}
+
+TEST_F(Run, APartOfAnotherRevisionOrLibraryIsMadeAgain) {
+    // Of each kept file the second line says what it depends on.
+    const std::string library = (scratch_ / "mine.so").string();
+    fs::copy(PLUGIN_DIRECTORY "/by_height.so", library);
+    write(file_, with("\"naive\"", "\"" + library + "\""));
+    expect_done(words());
+    const std::size_t before = parts().size();
+    expect_done(words());
+    EXPECT_EQ(parts().size(), before);
+    write(library, content(library) + " ");  // another library, which does the same
+    expect_done(words());
+    EXPECT_EQ(parts().size(), before + 1);
+    for (const fs::path& part : parts())
+        EXPECT_THAT(content(part), HasSubstr("for rows " + git_revision() + " "));
 }
 
 TEST_F(Run, WhatNoOrderChangesIsKeptAndUsedAgain) {
     expect_done(words());
     const auto before = results::read_csv(folder_ / "rows.csv");
     // 1000 more misses of 8 ways in every level show in the trial that is replayed again, and in no other.
-    nlohmann::json kept = nlohmann::json::parse(content(revisits()));
+    const std::string text = content(revisits());
+    const std::size_t key = text.find("\nfor ") + 5, bytes = text.find('\n', text.find("\nxxh3 ") + 1) + 1;
+    nlohmann::json kept = nlohmann::json::parse(text.substr(bytes));
     for (nlohmann::json& level : kept.at(0).at("levels"))
         level.at("misses").at(7) = level.at("misses").at(7).get<std::uint64_t>() + 1000;
-    write(revisits(), kept.dump());
-    const std::vector<results::Row> lost = results::read_csv(parts().front());
+    experiment::write_kept(revisits(), text.substr(key, text.find('\n', key) - key), kept.dump());
+    const std::string part = content(parts().front());
+    const std::vector<results::Row> lost = results::from_csv(part.substr(part.find("scene,")), "part");
     fs::remove(parts().front());
     expect_done(words());
     const auto after = results::read_csv(folder_ / "rows.csv");
@@ -182,26 +214,18 @@ TEST_F(Run, WhatNoOrderChangesIsKeptAndUsedAgain) {
                   *before[r].misses + (before[r].parameters == lost[0].parameters ? 1000 : 0));
 }
 
-TEST_F(Run, DamagedRevisitsAreRefusedByName) {
+TEST_F(Run, DamagedRevisitsAreCountedAgain) {
     expect_done(words());
+    const auto before = counts(folder_ / "rows.csv");
     const fs::path path = revisits();
-    const std::string name = path.filename().string(), whole = content(path);
-    fs::remove(parts().front());
-    const auto refused = [&](const std::string& text) {
-        write(path, text);
-        const Outcome outcome = regather(words());
-        EXPECT_EQ(outcome.exit_code, bad_data) << text.substr(0, 200) << outcome.err;
-        EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr(name), HasSubstr("expected")));
-    };
-    refused(whole.substr(0, whole.size() / 2));
-    refused("[]");
-    nlohmann::json fewer_ways = nlohmann::json::parse(whole), fewer_levels = fewer_ways;
-    fewer_ways.at(0).at("levels").at(0).at("misses").erase(7);
-    refused(fewer_ways.dump());
-    fewer_levels.at(0).at("levels").erase(1);
-    refused(fewer_levels.dump());
-    write(path, whole);
-    expect_done(words());
+    const std::string whole = content(path);
+    for (const std::string& damaged : {whole.substr(0, whole.size() / 2), std::string("[]")}) {
+        fs::remove(parts().front());
+        write(path, damaged);
+        expect_done(words());
+        EXPECT_EQ(counts(folder_ / "rows.csv"), before);
+        EXPECT_EQ(content(path), whole);
+    }
 }
 
 TEST_F(Run, ClassesAreAskedForByKey) {
@@ -264,13 +288,78 @@ TEST_F(Run, BadMethodsAreRefusedWithTheirPlace) {
     EXPECT_FALSE(fs::exists(folder_));
 }
 
-TEST_F(Run, KilledAtAnyMomentItIsTakenUpAgain) {
-    for (const int milliseconds : {50, 320, 380, 450, 550})
-        regather(words(), std::chrono::milliseconds(milliseconds));  // one after the other in the same folder
+using SlowRun = Run;
+
+TEST_F(SlowRun, KilledAfterAnyFileItIsTakenUpAgain) {
+    const auto files = [&](const char* where) {
+        std::size_t found = 0;
+        std::error_code gone;
+        for (fs::directory_iterator entry(folder_ / where, gone), end; entry != end && !gone;
+             entry.increment(gone))
+            ++found;
+        return found;
+    };
+    // One after the other in the same folder: the first column, the trace, what all share, a part, more
+    // parts.
+    for (const auto& [where, count] :
+         {std::pair{"trace", 2}, {".", 3}, {"parts", 1}, {"parts", 2}, {"parts", 4}, {"parts", 6}}) {
+        Process run(words());
+        run.wait_until(
+            [&, where = where, count = count] { return files(where) >= static_cast<std::size_t>(count); });
+        run.send(SIGKILL);
+        run.outcome();
+    }
     expect_done(words());
     EXPECT_EQ(results::read_csv(folder_ / "rows.csv").size(), rows);
     EXPECT_EQ(parts().size(), trials);
     EXPECT_NO_THROW(trace::TraceReader(folder_ / "trace").verify_all());
+}
+
+TEST_F(Run, ListsInOneTextAreMultipliedOutAsListsAre) {
+    write(file_, with("[\"2K\", 4096]", "\"2K,4K\""));
+    const experiment::Experiment loaded = experiment::load_experiment(file_);
+    ASSERT_EQ(loaded.trials.front().caches.size(), 2u);
+    EXPECT_EQ(loaded.trials.front().caches[0].size_bytes, 2048u);
+    EXPECT_EQ(loaded.trials.front().caches[1].size_bytes, 4096u);
+}
+
+TEST_F(Run, TheSameRowTwiceIsRefused) {
+    refused(with("4096", "\"2K\""), {"orderings", "naive through the cache 2048:128:8 twice"});
+    refused(with("[4, 8]", "[4, 4]"), {"orderings", "hilbert:tile=4", "twice"});
+    refused(with("\"naive\",", "\"naive\", {\"ordering\": \"naive\"},"), {"orderings", "naive", "twice"});
+    // The same ordering through other caches is no repetition.
+    write(file_, with("\"naive\",", R"("naive", {"ordering": "naive", "caches": [{"size": "1K"}]},)"));
+    EXPECT_NO_THROW(experiment::load_experiment(file_));
+}
+
+TEST_F(Run, AUsersLibraryIsGivenEveryColumnThatAnOrderingCouldRead) {
+    write(file_, R"({"scene": "box", "capture": {"width": 4, "height": 4, "photons": 500, "gather_rays": 2},
+        "orderings": [")" PLUGIN_DIRECTORY R"(/plugin_columns.so"]})");
+    expect_done(words());
+    for (const char* column : {"query_direction", "query_leaf_kd", "query_leaf_bvh"})
+        EXPECT_TRUE(trace::TraceReader(folder_ / "trace").has(column)) << column;
+    // Refuses when one of them is NULL. A trace of one's own need not have them.
+    const std::string library = PLUGIN_DIRECTORY "/plugin_columns.so";
+    expect_done({"replay", (folder_ / "trace").string(), "--order", library});
+    expect_done({"race", (folder_ / "trace").string(), "--order", library, "--repeats", "1"});
+}
+
+TEST_F(Run, FramesAndPartsToKeepAreBadDataOfTheFile) {
+    write(file_, with("\"k\": 20", "\"k\": 20, \"keep\": [\"caustic\"]"));
+    expect_refused(bad_data, words(), {"experiment.json", "keep", "caustic"});
+    write(file_, with("\"k\": 20", "\"k\": 20, \"frames\": \"0:5\""));
+    expect_refused(bad_data, words(), {"experiment.json", "frames", "no camera path"});
+    std::string text = with("\"k\": 20", "\"k\": 20, \"frames\": \"0:999\"");
+    write(file_, text.replace(text.find("\"box\""), 5, "\"cornell\""));
+    expect_refused(bad_data, words(), {"experiment.json", "frames", "0:999"});
+    EXPECT_FALSE(fs::exists(folder_));
+}
+
+TEST_F(Run, AFolderOrAVeryLongNameIsNoExperiment) {
+    expect_refused(bad_data, {"run", scratch_.path().string(), "-o", folder_.string()},
+                   {scratch_.path().string()});
+    expect_refused(bad_data, {"run", std::string(5000, 'x'), "-o", folder_.string()}, {"xxx"});
+    EXPECT_FALSE(fs::exists(folder_));
 }
 
 TEST_F(Run, ABadExperimentIsBadDataAndLeavesNothing) {

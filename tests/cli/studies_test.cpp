@@ -92,7 +92,7 @@ TEST(Frames, EachHasItsFolderAndTheRowsSayWhich) {
     EXPECT_NE(content(fs::path(folder) / "frame-0000" / "image.exr"),
               content(fs::path(folder) / "frame-0015" / "image.exr"));
     expect_refused(bad_usage, Words{"capture", "cornell", "-o", folder + "2", "--frames", "0:99"} + small,
-                   {"--frames", "0:99"});
+                   {"frames", "0:99"});
     expect_refused(bad_usage, Words{"capture", "box", "-o", folder + "2", "--frames", "0"} + small,
                    {"no camera path"});
     EXPECT_FALSE(fs::exists(folder + "2"));

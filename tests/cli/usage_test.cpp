@@ -1,4 +1,5 @@
 // The binary's command line: help, versions, and words that mean nothing.
+#include "cli/commands.h"
 #include "tests/cli/expect.h"
 
 namespace regather::cli {
@@ -6,16 +7,15 @@ namespace {
 
 using testing::HasSubstr;
 
-const char* const subcommands[] = {"scenes", "capture",  "walk",  "replay", "detail",
-                                   "race",   "cachesim", "chart", "run",    "info"};
-
 TEST(Usage, HelpOfEverySubcommandShowsAnExample) {
     const std::string all = expect_done({"--help"}).out;
-    for (const char* name : subcommands) {
-        EXPECT_THAT(all, HasSubstr(std::string("\n  ") + name + " ")) << name;
+    for (const Subcommand& command : subcommands()) {
+        const std::string name(command.name);
+        EXPECT_THAT(all, HasSubstr("\n  " + name + " ")) << name;
         const std::string help = expect_done({name, "--help"}).out;
         EXPECT_THAT(help, HasSubstr("Example")) << name;
-        EXPECT_THAT(help, HasSubstr(std::string("\n  regather ") + name + " ")) << name;
+        EXPECT_THAT(help, HasSubstr("\n  regather " + name + " ")) << name;
+        EXPECT_THAT(help, HasSubstr(std::string(command.summary))) << name;
     }
 }
 
@@ -24,7 +24,7 @@ TEST(Usage, VersionNamesTheRevision) {
 }
 
 TEST(Usage, ASubcommandIsNeeded) {
-    expect_refused(bad_usage, {}, {"subcommand is required", "regather --help"});
+    expect_refused(bad_usage, {}, {"SUBCOMMAND", "capture", "regather --help"});
 }
 
 TEST(Usage, AnUnknownSubcommandBringsTheNearest) {
@@ -41,10 +41,10 @@ TEST(Usage, AnUnknownOptionBringsTheNearest) {
 }
 
 TEST(Usage, AMissingArgumentIsNamed) {
-    expect_refused(bad_usage, {"capture", "box"}, {"--output is required"});
+    expect_refused(bad_usage, {"capture", "box"}, {"--output", "required"});
     expect_refused(bad_usage, {"replay", "trace"}, {"--order"});
     expect_refused(bad_usage, {"capture", "box", "-o"}, {"--output"});
-    expect_refused(bad_usage, {"info"}, {"what is required"});
+    expect_refused(bad_usage, {"info"}, {"what", "required"});
 }
 
 TEST(Usage, ImpossibleCaptureValuesLeaveNoFolder) {
@@ -76,7 +76,7 @@ TEST(Usage, ImpossibleReplayValuesLeaveNoFile) {
     };
     refused("naive", "100:3:7", {"found 3", "power of two"});
     refused("naive", "128K", {"'128K'", "SIZE:LINE:WAYS"});
-    refused("naive", "128K:128:0", {"128K:128:0", "SIZE:LINE:WAYS"});
+    refused("naive", "128K:128:0", {"128K:128:0", "ways", "'0'"});
     refused("naive", "0:128:1", {"found 0"});
     refused("naive", "many:128:1", {"'many'"});
     refused("hilbrt", "128K:128:8", {"\"hilbrt\"", "nearest: hilbert", "morton"});
@@ -91,14 +91,24 @@ TEST(Usage, ImpossibleReplayValuesLeaveNoFile) {
     EXPECT_TRUE(std::filesystem::is_empty(scratch.path()));
 }
 
-TEST(Usage, OutputThatCannotBeWrittenIsAFailedRun) {
+TEST(Binary, OutputThatCannotBeWrittenIsAFailedRun) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP();
     for (const std::vector<std::string>& words :
-         {std::vector<std::string>{"--help"}, {"scenes"}, {"info", (captured_box() / "trace").string()}}) {
-        const Outcome outcome = regather(words, {}, "/dev/full");
+         {std::vector<std::string>{"--help"}, {"info", (captured_box() / "trace").string()}}) {
+        const Outcome outcome = Process(words, "/dev/full").outcome();
         EXPECT_EQ(outcome.exit_code, run_failed) << words.front();
         EXPECT_THAT(outcome.err, HasSubstr("regather: stdout: cannot write: No space left"));
     }
+}
+
+TEST(Binary, ItsExitCodesAndOutputsAreThoseOfTheCommand) {
+    const Outcome done = Process({"info", "box"}).outcome(), wrong = Process({"info", "bx"}).outcome(),
+                  bad = Process({"info", "nowhere/scene.json"}).outcome();
+    EXPECT_EQ(done.exit_code, 0);
+    EXPECT_EQ(done.out, regather({"info", "box"}).out);
+    EXPECT_EQ(wrong.exit_code, bad_usage);
+    EXPECT_EQ(wrong.err, regather({"info", "bx"}).err);
+    EXPECT_EQ(bad.exit_code, bad_data);
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
-// What no order changes, kept in a file: read back as it was, or refused.
+// What no order changes, as text: read back as it was, or refused.
 #include "experiment/revisits.h"
 
-#include "tests/cli/expect.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include "trace/error.h"
 
 namespace regather::experiment {
 namespace {
-
-namespace fs = std::filesystem;
 
 replay::Revisits some_revisits() {
     replay::Revisits revisits;
@@ -20,27 +20,19 @@ replay::Revisits some_revisits() {
 }
 
 TEST(Revisits, AreReadAsTheyWereWritten) {
-    const Scratch scratch;
-    const fs::path path = scratch / "revisits.json";
-    for (const replay::Revisits& revisits : {some_revisits(), replay::Revisits{}}) {
-        write_revisits(path, revisits);
-        EXPECT_EQ(read_revisits(path), revisits);
-    }
+    for (const replay::Revisits& revisits : {some_revisits(), replay::Revisits{}})
+        EXPECT_EQ(revisits_in(text_of(revisits), "kept"), revisits);
 }
 
-TEST(Revisits, AFileThatIsSomethingElseIsRefusedByName) {
-    const Scratch scratch;
-    const fs::path path = scratch / "revisits.json";
-    write_revisits(path, some_revisits());
-    const std::string whole = cli::content(path);
+TEST(Revisits, TextThatIsSomethingElseIsRefusedByName) {
+    const std::string whole = text_of(some_revisits());
     const auto refused = [&](const std::string& text) {
-        cli::write(path, text);
         try {
-            read_revisits(path);
+            revisits_in(text, "out/kept");
             ADD_FAILURE() << "accepted: " << text;
         } catch (const trace::DataError& error) {
             EXPECT_THAT(error.what(),
-                        testing::AllOf(testing::HasSubstr(path.string()), testing::HasSubstr("expected"),
+                        testing::AllOf(testing::HasSubstr("out/kept"), testing::HasSubstr("expected"),
                                        testing::Not(testing::HasSubstr("\n"))));
         }
     };
@@ -51,8 +43,6 @@ TEST(Revisits, AFileThatIsSomethingElseIsRefusedByName) {
           R"([{"line_bytes": 8, "accesses": 1, "by_distance": ["many"], "levels": []}])",
           R"([{"line_bytes": 8, "accesses": 1, "by_distance": [], "levels": [{"sets": 1}]}])"})
         refused(text);
-    fs::remove(path);
-    EXPECT_THROW(read_revisits(path), std::exception);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/* plugin.c -- shared libraries with a defect each, and one that states costs; for shared_library_test.cpp. */
+/* plugin.c -- shared libraries with a defect each, one that states costs, one that needs every column; for shared_library_test.cpp. */
 #include "reorder/plugin.h"
 
 #ifdef PLUGIN_other_abi
@@ -17,8 +17,10 @@ const char* regather_ordering_name(void) { return "test"; }
 int regather_assign_keys(const struct regather_workload* work, const char* parameters, uint64_t* keys) {
     (void)parameters;
     for (uint64_t i = 0; i < work->count; ++i) keys[i] = work->count - i;
-#ifdef PLUGIN_refusing
+#if defined(PLUGIN_refusing)
     return 7;
+#elif defined(PLUGIN_columns)
+    return !work->direction || !work->leaf_kd || !work->leaf_bvh;
 #else
     return 0;
 #endif

@@ -2,20 +2,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "experiment/measurement.h"
+#include "cachesim/cache_list.h"
 #include "trace/error.h"
 
-namespace regather::experiment {
+namespace regather::cachesim {
 namespace {
 
 TEST(ParseCache, SizeLineAndWays) {
-    const cachesim::CacheConfig cache = parse_caches("128K:128:8").front();
+    const CacheConfig cache = parse_caches("128K:128:8").front();
     EXPECT_EQ(cache.size_bytes, 131072u);
     EXPECT_EQ(cache.line_bytes, 128u);
     EXPECT_EQ(cache.ways, 8u);
     EXPECT_EQ(parse_caches("3K:64:3").front().ways, 3u);  // 16 sets
     EXPECT_EQ(parse_caches("64:64:1").front().size_bytes, 64u);
-    EXPECT_EQ(parse_caches("3000:8:full").front().ways, cachesim::fully_associative);
+    EXPECT_EQ(parse_caches("3000:8:full").front().ways, fully_associative);
 }
 
 TEST(ParseCache, ItsTextIsReadBack) {
@@ -49,11 +49,10 @@ TEST(ParseCache, AllElseIsAUsageError) {
 
 TEST(ParseCaches, ListsAreMultipliedOutSizesOutermost) {
     std::vector<std::string> texts;
-    for (const cachesim::CacheConfig& cache : parse_caches("16K,32K:64,128:1,full"))
-        texts.push_back(cache_text(cache));
+    for (const CacheConfig& cache : parse_caches("16K,32K:64,128:1,full")) texts.push_back(cache_text(cache));
     EXPECT_THAT(texts, testing::ElementsAre("16384:64:1", "16384:64:full", "16384:128:1", "16384:128:full",
                                             "32768:64:1", "32768:64:full", "32768:128:1", "32768:128:full"));
 }
 
 }  // namespace
-}  // namespace regather::experiment
+}  // namespace regather::cachesim

@@ -1,0 +1,33 @@
+#include "cli/commands.h"
+
+namespace regather::cli {
+namespace {
+
+constexpr Subcommand table[] = {
+    {"scenes", "list the scenes there are, show one, or draw a contact sheet", add_scenes},
+    {"import", "make a scene of a home, a map, furniture or a mesh of others", add_import},
+    {"capture", "render a scene; write its image and its trace", add_capture},
+    {"reference", "render a scene by path tracing: the truth that images are measured against",
+     add_reference},
+    {"walk", "make a trace of your own photons and queries (.npy columns)", add_walk},
+    {"replay", "put a trace's queries into orders; count misses and traffic", add_replay},
+    {"detail", "tell apart which data misses in a cache, why, and when", add_detail},
+    {"heatmap", "bytes moved by each pixel, by ordering, as an image", add_heatmap},
+    {"race", "search a trace's queries on this machine in other orders, timed", add_race},
+    {"sampling", "measure the error and the speed of set sampling against exact replays", add_sampling},
+    {"cachesim", "simulate caches on an address trace of your own", add_cachesim},
+    {"machines", "list the machines there are, or show one with the source of each figure", add_machines},
+    {"chart", "draw charts (SVG and PNG) from CSV rows", add_chart},
+    {"converge", "measure error against run time over a ladder of settings", add_converge},
+    {"stability", "measure errors in stiff and extreme cases against what is allowed", add_stability},
+    {"run", "capture, reorder, replay and chart what an experiment file asks for", add_run},
+    {"info", "what a trace holds, or what a scene needs", add_info},
+};
+
+}  // namespace
+
+std::span<const Subcommand> subcommands() {
+    return table;
+}
+
+}  // namespace regather::cli

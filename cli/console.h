@@ -1,0 +1,23 @@
+// cli/console.h -- where a command's words go. Commands print here and nowhere else, so that they can be
+// called in process.
+#pragma once
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace regather::cli {
+
+struct Console {
+    std::FILE* out;                         ///< Data, and what was made.
+    std::FILE* err;                         ///< Progress, and what is wrong.
+    std::vector<std::string> command_line;  ///< As typed, the program's name first: for provenance.
+
+    template <class... Words>
+    void print(fmt::format_string<Words...> format, Words&&... words) const {
+        fmt::print(out, format, std::forward<Words>(words)...);
+    }
+};
+
+}  // namespace regather::cli
