@@ -9,11 +9,12 @@
 #include "imports/model.h"
 #include "imports/orbit.h"
 #include "meshes/mesh.h"
+#include "scenes/mesh_material.h"
 #include "trace/error.h"
 
 namespace regather::imports {
 
-using scenes::Mesh;
+using meshes::Mesh;
 using scenes::Quad;
 using trace::DataError;
 using trace::UsageError;
@@ -29,7 +30,7 @@ constexpr float watts_a_square_metre = 25;  // Of floor below the object, all of
 ImportedScene import_mesh(const std::filesystem::path& file, const MeshImportOptions& options) {
     if (!(options.size >= 1e-3 && options.size <= 1e3))
         throw UsageError(fmt::format("--size: found {} m, expected 0.001 to 1000", options.size));
-    const Mesh mesh = scenes::read_mesh(file);
+    const Mesh mesh = meshes::read_mesh(file);
     const trace::Bounds3 bounds = trace::bounds_of(mesh.surface.vertices);
     const double extent[3]{double{bounds.max.x} - bounds.min.x, double{bounds.max.y} - bounds.min.y,
                            double{bounds.max.z} - bounds.min.z};
@@ -40,7 +41,7 @@ ImportedScene import_mesh(const std::filesystem::path& file, const MeshImportOpt
 
     Model model;
     for (std::uint32_t m = 0; m < mesh.materials.size(); ++m) {
-        Model::Part part{mesh.materials[m], {}};
+        Model::Part part{scenes::material_of(mesh.materials[m]), {}};
         part.surface = triangles_with(mesh.surface, mesh.triangle_material, m);
         if (!part.surface.triangles.empty()) model.parts.push_back(std::move(part));
     }
