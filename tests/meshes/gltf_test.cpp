@@ -177,7 +177,7 @@ TEST(Gltf, WhatLeadsBeyondItsBytesIsRefused) {
     parts = {};
     parts.positions = R"("bufferView": 0, "componentType": 5126, "count": 7, "type": "VEC3")";
     EXPECT_THAT(refused(parts),
-                HasSubstr("accessors[1]: found the index 7 at 9, expected one of 7 vertices"));
+                HasSubstr("accessors[1]: found the index 7 at 11, expected one of 7 vertices"));
     parts = {};
     parts.nodes = R"([{"mesh": 7}])";
     EXPECT_THAT(refused(parts), HasSubstr("nodes[0].mesh: found 7"));

@@ -90,11 +90,11 @@ const std::string mtl_text =
     "newmtl red\nKd 0.8 0.1 0.1\nKe 1 1 1\nd -halo 0.5\nTr 0.5\nmap_Kd -s 1 1 1 a b.png\nNs 10\nillum 2\n";
 
 TEST(Damaged, Obj) {
-    EXPECT_GT(read_of(3000, Format::obj, obj_text, {{"m.mtl", mtl_text}}), 100);
+    EXPECT_GT(read_of(3000, Format::obj, obj_text, {{"m.mtl", mtl_text}}), 20);
 }
 
 TEST(Damaged, Mtl) {
-    EXPECT_GT(read_of(3000, Format::obj, obj_text, {{"m.mtl", mtl_text}}, false), 100);
+    EXPECT_GT(read_of(3000, Format::obj, obj_text, {{"m.mtl", mtl_text}}, false), 20);
 }
 
 TEST(Damaged, AsciiPly) {
@@ -108,7 +108,7 @@ TEST(Damaged, AsciiPly) {
             "property list int int vertex_indices\nend_header\n0 0 0 9 0 0 1\n2 0 0 9 0 0 1\n2 3 0 9 0 0 1\n"
             "0 3 4 9 0 0 1\n4 0 1 2 3\n3 0 1 2\n5 0 1 2 -1 3\n",
             {}),
-        100);
+        20);
 }
 
 TEST(Damaged, BinaryPly) {
@@ -122,7 +122,7 @@ TEST(Damaged, BinaryPly) {
         put(bytes, static_cast<std::uint8_t>(v));
     }
     bytes += std::string("\2\0\1\0\2\0\0\0\4\0\0\0\1\0\3\0\2", 17);
-    EXPECT_GT(read_of(3000, Format::ply, bytes, {}), 100);
+    EXPECT_GT(read_of(3000, Format::ply, bytes, {}), 20);
 }
 
 const std::string gltf_text =
@@ -140,9 +140,9 @@ std::string gltf_with(const std::string& buffer) {
 }
 
 TEST(Damaged, Gltf) {
-    EXPECT_GT(read_of(3000, Format::gltf, gltf_with(R"(, "uri": "b.bin")"), {{"b.bin", gltf_bytes()}}), 100);
+    EXPECT_GT(read_of(3000, Format::gltf, gltf_with(R"(, "uri": "b.bin")"), {{"b.bin", gltf_bytes()}}), 20);
     EXPECT_GT(read_of(1000, Format::gltf, gltf_with(R"(, "uri": "b.bin")"), {{"b.bin", gltf_bytes()}}, false),
-              100);
+              20);
 }
 
 TEST(Damaged, Glb) {
@@ -155,7 +155,7 @@ TEST(Damaged, Glb) {
     bytes += "JSON" + json;
     put(bytes, std::uint32_t{52});
     bytes += std::string("BIN\0", 4) + gltf_bytes();
-    EXPECT_GT(read_of(3000, Format::gltf, bytes, {}), 50);
+    EXPECT_GT(read_of(3000, Format::gltf, bytes, {}), 20);
 }
 
 }  // namespace

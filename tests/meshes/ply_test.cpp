@@ -280,8 +280,7 @@ TEST(Ply, DamageIsRefusedWithItsPlace) {
     EXPECT_EQ(with("4 3 2 1 0", "4 3 2 1 0.5"),
               "t: line 18: found \"0.5\", expected a whole number in \"vertex_indices\" of face 1 of 6");
     EXPECT_EQ(with("4 3 0 4 7\n", "4 3 0"),
-              "t: line 23: found the end of the file, expected a whole number in \"vertex_indices\" of face "
-              "6 of 6");
+              "t: line 23: found a list of 4 for 4 bytes, expected what is there of face 6 of 6");
     EXPECT_EQ(refused(Format::ply,
                       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty "
                       "float z\nend_header\n1 2 3\n"),
