@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -47,10 +48,18 @@ ImportedScene import_mesh(const std::filesystem::path& file, const MeshImportOpt
     }
     Placement placement;
     const double scale = options.size / largest;
-    placement.width = extent[0] * scale;
-    placement.height = extent[options.y_up ? 1 : 2] * scale;
-    placement.depth = extent[options.y_up ? 2 : 1] * scale;
-    if (!options.y_up) placement.model_rotation = {1, 0, 0, 0, 0, 1, 0, -1, 0};  // (x, y, z) -> (x, z, -y)
+    // Which axes of the file become the model's x, y (up) and z, and how it is turned to that end.
+    std::array<std::size_t, 3> axes{0, 1, 2};
+    if (options.up == MeshImportOptions::Up::z) {
+        axes = {0, 2, 1};
+        placement.model_rotation = {1, 0, 0, 0, 0, 1, 0, -1, 0};  // (x, y, z) -> (x, z, -y)
+    } else if (options.up == MeshImportOptions::Up::x) {
+        axes = {1, 0, 2};
+        placement.model_rotation = {0, -1, 0, 1, 0, 0, 0, 0, 1};  // (x, y, z) -> (-y, x, z)
+    }
+    placement.width = extent[axes[0]] * scale;
+    placement.height = extent[axes[1]] * scale;
+    placement.depth = extent[axes[2]] * scale;
 
     ImportedScene scene;
     scene.name = plain_name(file.stem().string());

@@ -138,10 +138,8 @@ private:
     }
 
     void read_face() {
-        std::size_t corners = 0;
-        for (std::string_view word = line_.word(); !word.empty(); word = line_.word(), ++corners)
+        for (std::string_view word = line_.word(); !word.empty(); word = line_.word())
             corners_.push_back(corner(word));
-        if (corners == 0) line_.fail("a face without corners", "at least three");
         if (corners_.size() > 3 * most_triangles)
             line_.fail(fmt::format("more than {} corners of faces", 3 * most_triangles), "at most as many");
         ends_.push_back(static_cast<std::uint32_t>(corners_.size()));
