@@ -55,7 +55,7 @@ Imported import_glassware(const Request& request) {
 Imported import_one_mesh(const Request& request) {
     if (request.up != "y" && request.up != "z")
         throw UsageError(fmt::format("--up: found '{}', expected y or z", request.up));
-    return {imports::import_mesh(one_file(request), {.y_up = request.up == "y", .size = request.size}), {}};
+    return {imports::import_mesh(one_file(request), {.up = up_of(request.up), .size = request.size}), {}};
 }
 
 Imported import_map(const Request& request) {

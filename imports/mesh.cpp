@@ -3,17 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "imports/model.h"
 #include "imports/orbit.h"
 #include "meshes/mesh.h"
+#include "scenes/mesh_material.h"
 #include "trace/error.h"
 
 namespace regather::imports {
 
-using scenes::Mesh;
+using meshes::Mesh;
 using scenes::Quad;
 using trace::DataError;
 using trace::UsageError;
@@ -29,7 +31,7 @@ constexpr float watts_a_square_metre = 25;  // Of floor below the object, all of
 ImportedScene import_mesh(const std::filesystem::path& file, const MeshImportOptions& options) {
     if (!(options.size >= 1e-3 && options.size <= 1e3))
         throw UsageError(fmt::format("--size: found {} m, expected 0.001 to 1000", options.size));
-    const Mesh mesh = scenes::read_mesh(file);
+    const Mesh mesh = meshes::read_mesh(file);
     const trace::Bounds3 bounds = trace::bounds_of(mesh.surface.vertices);
     const double extent[3]{double{bounds.max.x} - bounds.min.x, double{bounds.max.y} - bounds.min.y,
                            double{bounds.max.z} - bounds.min.z};
@@ -40,16 +42,24 @@ ImportedScene import_mesh(const std::filesystem::path& file, const MeshImportOpt
 
     Model model;
     for (std::uint32_t m = 0; m < mesh.materials.size(); ++m) {
-        Model::Part part{mesh.materials[m], {}};
+        Model::Part part{scenes::material_of(mesh.materials[m]), {}};
         part.surface = triangles_with(mesh.surface, mesh.triangle_material, m);
         if (!part.surface.triangles.empty()) model.parts.push_back(std::move(part));
     }
     Placement placement;
     const double scale = options.size / largest;
-    placement.width = extent[0] * scale;
-    placement.height = extent[options.y_up ? 1 : 2] * scale;
-    placement.depth = extent[options.y_up ? 2 : 1] * scale;
-    if (!options.y_up) placement.model_rotation = {1, 0, 0, 0, 0, 1, 0, -1, 0};  // (x, y, z) -> (x, z, -y)
+    // Which axes of the file become the model's x, y (up) and z, and how it is turned to that end.
+    std::array<std::size_t, 3> axes{0, 1, 2};
+    if (options.up == MeshImportOptions::Up::z) {
+        axes = {0, 2, 1};
+        placement.model_rotation = {1, 0, 0, 0, 0, 1, 0, -1, 0};  // (x, y, z) -> (x, z, -y)
+    } else if (options.up == MeshImportOptions::Up::x) {
+        axes = {1, 0, 2};
+        placement.model_rotation = {0, -1, 0, 1, 0, 0, 0, 0, 1};  // (x, y, z) -> (-y, x, z)
+    }
+    placement.width = extent[axes[0]] * scale;
+    placement.height = extent[axes[1]] * scale;
+    placement.depth = extent[axes[2]] * scale;
 
     ImportedScene scene;
     scene.name = plain_name(file.stem().string());

@@ -67,19 +67,16 @@ bool has_normals(const Surface& surface) {
            std::any_of(surface.normals.begin(), surface.normals.end(), [](Vec3 n) { return n != Vec3{}; });
 }
 
-// Assimp 5.2 takes a line feed at the beginning of the binary data for a part of the header: the first byte
-// must be none, so every vertex begins with one that says nothing.
 std::string ply_of(const Surface& surface) {
     const bool normals = has_normals(surface);
     std::string bytes = fmt::format(
-        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty uchar lead\nproperty float "
-        "x\nproperty float y\nproperty float z\n"
+        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float "
+        "y\nproperty float z\n"
         "{}element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
         surface.vertices.size(), normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
         surface.triangles.size());
-    bytes.reserve(bytes.size() + surface.vertices.size() * 25 + surface.triangles.size() * 13);
+    bytes.reserve(bytes.size() + surface.vertices.size() * 24 + surface.triangles.size() * 13);
     for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
-        bytes += '\1';
         put(bytes, surface.vertices[v]);
         if (normals) put(bytes, surface.normals[v]);
     }

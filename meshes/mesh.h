@@ -1,29 +1,60 @@
-// meshes/mesh.h -- triangles and materials from OBJ, PLY, glTF and GLB files. OBJ and PLY are read by Assimp
-// after a check of our own (meshes/obj.h, meshes/ply.h), glTF by meshes/gltf.h.
+// meshes/mesh.h -- triangles and materials from OBJ, PLY, glTF and GLB files, each read once, by one reader.
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "scenes/scene.h"
-#include "scenes/tessellation.h"
+#include "meshes/material.h"
+#include "meshes/surface.h"
 
-namespace regather::scenes {
+namespace regather::meshes {
 
 struct Mesh {
     Surface surface;  ///< In the file's own coordinates; the file's normals where it has them.
     std::vector<std::uint32_t> triangle_material;  ///< Index into materials.
     std::vector<Material>
         materials;  ///< The file's own, by its names; faces without one have "default", a grey of 0.5.
-    std::uint64_t degenerate_faces = 0;  ///< Without area (in float coordinates), points and lines: left out.
-    std::string missing_library;  ///< Of an OBJ: a material library (.mtl) that it names and that is not
-                                  ///< there; else "".
+    std::vector<std::uint32_t> triangle_group;  ///< Of an OBJ: index into groups; else empty.
+    std::vector<std::string> groups;            ///< The names after g or o; "" before the first.
+    std::uint64_t degenerate_faces = 0;  ///< Without area (in float coordinates) or with fewer than three
+                                         ///< corners: left out.
+    std::vector<std::string> missing_libraries;  ///< Material libraries (.mtl) that an OBJ names and that are
+                                                 ///< not there.
+    std::vector<std::string> notes;              ///< What is in the file and not taken over, a line a kind.
 };
 
-/// Polygons are triangulated; textures are not read. Throws trace::DataError that names the file when it is
-/// missing, damaged, of another kind, or has no triangle with an area. The memory used is in proportion to
-/// the bytes of the file.
+enum class Format : std::uint8_t { obj, ply, gltf };
+
+/// A file that another one names.
+struct Neighbour {
+    std::string file;  ///< For messages.
+    std::string bytes;
+};
+
+/// The bytes of a mesh file and a way to those that it names.
+struct Source {
+    std::string_view bytes;
+    std::string file;  ///< For messages.
+    std::string stem;  ///< Its name without folder and extension: an OBJ's library may bear it.
+    /// Whether there is a regular file of that name, relative to the mesh file.
+    std::function<bool(const std::string& name)> has_beside = [](const std::string&) { return false; };
+    /// One that is there. Throws trace::DataError when it cannot be read or has more than 2^30 bytes.
+    std::function<Neighbour(const std::string& name)> read_beside = {};
+};
+
+/// Polygons are triangulated (meshes/polygon.h); textures are not read. Throws trace::DataError that names
+/// file, place, what was found and what was expected when the source is damaged, of another format, or has no
+/// triangle with an area. Memory and time are in proportion to the bytes.
+Mesh parse_mesh(Format format, const Source& source);
+
+/// The format that the name's extension says, in letters of any case: .obj, .ply, .gltf, .glb.
+std::optional<Format> format_of(const std::filesystem::path& file);
+
+/// A file of at most 2^30 bytes, with those that it names. Throws trace::DataError, as parse_mesh.
 Mesh read_mesh(const std::filesystem::path& file);
 
-}  // namespace regather::scenes
+}  // namespace regather::meshes

@@ -1,24 +1,17 @@
-// meshes/obj.h -- whether an OBJ file and its MTL libraries are sound (Wavefront, "Object Files (.obj)",
-// appendices B1 and B2). Assimp trusts some of what it reads there, so that both are checked before Assimp
-// sees them.
+// meshes/obj.h -- OBJ files with their material libraries (Wavefront, "Object Files (.obj)", appendix B1).
+// Polygons, normals, groups and materials are read; points, lines, curves, surfaces, colours and weights of
+// vertices are noted.
 #pragma once
-#include <string>
-#include <string_view>
-#include <vector>
+#include "meshes/mesh.h"
 
-namespace regather::scenes {
+namespace regather::meshes {
 
-struct ObjContents {
-    std::string damage;                  ///< "" when sound, else what was found, in a few words.
-    std::vector<std::string> libraries;  ///< The names after mtllib.
-};
+/// The faces in the file's order. Throws trace::DataError that names file and line: vertices and normals have
+/// finite numbers, faces name only vertices, texture coordinates and normals that the file has.
+///
+/// Libraries: names after mtllib are quoted, or end with ".mtl" or the line, so that they may hold blanks.
+/// One that is not there is looked for under the OBJ's own name; failing that it stands in
+/// Mesh::missing_libraries.
+Mesh read_obj(const Source& source);
 
-/// Sound: every vertex has three finite numbers, and points, lines and faces name only vertices, texture
-/// coordinates and normals that are in the file. Keywords of curves and surfaces are passed over, as Assimp
-/// does.
-ObjContents check_obj(std::string_view bytes);
-
-/// "" for a library whose numbers are finite and stand behind a newmtl; else what was found.
-std::string mtl_damage(std::string_view bytes);
-
-}  // namespace regather::scenes
+}  // namespace regather::meshes

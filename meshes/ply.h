@@ -1,15 +1,15 @@
-// meshes/ply.h -- whether a PLY file is whole (Turk, "The PLY Polygon File Format", 1994; ASCII and both
-// binary forms). Assimp 5.2.5 loops for ever on a header that is cut, so a file is checked before Assimp
-// sees it.
+// meshes/ply.h -- PLY files (Turk, "The PLY Polygon File Format", 1994), ASCII and both binary forms.
+// Vertices with their normals, faces and triangle strips (tristrips) are read; other elements and properties
+// are passed over and noted.
 #pragma once
-#include <string>
-#include <string_view>
+#include "meshes/mesh.h"
 
-namespace regather::scenes {
+namespace regather::meshes {
 
-/// "" for a file whose header is sound, whose elements are all there, whose numbers are finite and whose
-/// faces name only vertices that exist; else what was found, in a few words. Bytes after the last element do
-/// not matter.
-std::string ply_damage(std::string_view bytes);
+/// Elements and properties stand in any order. The header's lines end as the first does: LF, CR LF or CR; in
+/// an ASCII body values are parted by blanks and line ends of any number. Throws trace::DataError that names
+/// the file and the line (of a binary body the byte): the header is whole, all elements are there, and faces
+/// name only vertices that exist.
+Mesh read_ply(const Source& source);
 
-}  // namespace regather::scenes
+}  // namespace regather::meshes

@@ -11,11 +11,9 @@
 
 #include "trace/bounds.h"
 
-namespace regather::scenes {
+namespace regather::meshes {
 
 namespace {
-
-using Triangle = std::array<std::uint32_t, 3>;
 
 struct HashOfPlace {
     std::size_t operator()(const std::array<std::uint32_t, 3>& bits) const {
@@ -263,4 +261,4 @@ Surface simplified(const Surface& surface, float cell) {
     return result;
 }
 
-}  // namespace regather::scenes
+}  // namespace regather::meshes

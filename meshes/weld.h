@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "scenes/tessellation.h"
+#include "meshes/surface.h"
 
-namespace regather::scenes {
+namespace regather::meshes {
 
 /// One number a vertex: equal for vertices at equal coordinates, numbered from 0 by first appearance.
 std::vector<std::uint32_t> weld(const Surface& surface);
@@ -29,4 +29,4 @@ Surface as_solid(const Surface& surface, float thickness);
 /// left out.
 Surface simplified(const Surface& surface, float cell);
 
-}  // namespace regather::scenes
+}  // namespace regather::meshes

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "meshes/mesh.h"
 #include "scenes/catalogue.h"
 #include "scenes/coordinates.h"
 #include "scenes/scene_builder.h"
@@ -71,6 +72,7 @@ Scene parse_scene(std::string_view text, const std::string& file, const std::fil
     if (built.flat_shape) throw DataError(*built.flat_shape);
     if (const double size = size_of(built.scene.bounds()); size > 2 * most_metres)
         root.fail(fmt::format("a size of {:.6g} m", size), fmt::format("at most {:.6g}", 2 * most_metres));
+    built.scene.notes = meshes.notes();
     return std::move(built.scene);
 }
 
@@ -83,6 +85,11 @@ Scene load_scene(std::string_view name_or_path) {
     }
     const std::string file(name_or_path);
     const std::filesystem::path path(file);
+    if (meshes::format_of(path))
+        throw UsageError(
+            fmt::format("scene: found the mesh {}, expected a scene: make one of it by `regather import mesh "
+                        "{} -o DIR` and give DIR/scene.json",
+                        trace::in_quotes(file), trace::shown(file, 200)));
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) {

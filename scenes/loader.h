@@ -4,16 +4,17 @@
 #include <string>
 #include <string_view>
 
+#include "meshes/surface.h"
 #include "scenes/scene.h"
 
 namespace regather::scenes {
 
 /// More triangles than this are refused before any is made.
-inline constexpr std::uint64_t most_triangles = 50'000'000;
+using meshes::most_triangles;
 
 /// An embedded scene's name (scenes/catalogue.h), else the path of a JSON file. Throws trace::DataError, one
 /// line "FILE: FIELD: found X, expected Y", for anything wrong in the file or in a mesh it names;
-/// trace::UsageError for a bare word that is neither an embedded scene nor a file.
+/// trace::UsageError for a bare word that is neither an embedded scene nor a file, and for a mesh file.
 Scene load_scene(std::string_view name_or_path);
 
 /// The scene that `text` (JSON) describes. `file` names it in errors; meshes are looked up in `directory`.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 namespace regather::scenes {
 
@@ -60,6 +61,10 @@ Material material_of(const std::string& name, const MetallicRoughness& terms) {
             make_glossy(material, specular, 2 / std::max(squared * squared, 1e-12f) - 2);
     }
     return material;
+}
+
+Material material_of(const meshes::Material& material) {
+    return std::visit([&](const auto& terms) { return material_of(material.name, terms); }, material.terms);
 }
 
 }  // namespace regather::scenes

@@ -73,6 +73,8 @@ struct Scene {
     std::array<double, 3>
         recentred_by{};  ///< [m] Taken off all coordinates of the file, for the sake of floats.
     std::uint64_t degenerate_faces_dropped = 0;  ///< Faces of mesh files without area, left out.
+    std::vector<std::string>
+        notes;  ///< What its mesh files hold that is not taken over, "FILE: WHAT: HOW OFTEN".
 
     Bounds3 bounds() const { return trace::bounds_of(vertices); }
 };

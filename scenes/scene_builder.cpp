@@ -10,6 +10,7 @@
 #include "scenes/coordinates.h"
 #include "scenes/loader.h"
 #include "scenes/material.h"
+#include "scenes/mesh_material.h"
 #include "scenes/shape.h"
 #include "trace/error.h"
 #include "trace/text.h"
@@ -17,6 +18,7 @@
 
 namespace regather::scenes {
 
+using meshes::Mesh;
 using trace::DataError;
 
 namespace {
@@ -203,7 +205,7 @@ private:
                     }
                 if (!is_there) {
                     std::vector<std::string_view> names;
-                    for (const Material& m : mesh.materials) names.push_back(m.name);
+                    for (const meshes::Material& m : mesh.materials) names.push_back(m.name);
                     value.fail(
                         fmt::format("{}, no material of {}", trace::in_quotes(name), trace::in_quotes(file)),
                         trace::alternatives(trace::nearest_words(name, names)));
@@ -213,13 +215,13 @@ private:
         own.resize(mesh.materials.size(), none);
         for (const std::uint32_t m : mesh.triangle_material) {
             if (chosen[m] != none) continue;
-            if (!mesh.missing_library.empty())
+            if (!mesh.missing_libraries.empty() && !mesh.materials[m].is_described)
                 node["file"].fail(
-                    fmt::format("no material library {}", trace::in_quotes(mesh.missing_library)),
+                    fmt::format("no material library {}", trace::in_quotes(mesh.missing_libraries.front())),
                     "that file, or a \"material\" for all faces");
             if (own[m] == none) {
                 own[m] = static_cast<std::uint32_t>(scene_.materials.size());
-                scene_.materials.push_back(mesh.materials[m]);
+                scene_.materials.push_back(scenes::material_of(mesh.materials[m]));
             }
             chosen[m] = own[m];
         }
@@ -443,9 +445,11 @@ private:
 }  // namespace
 
 const Mesh& MeshStore::get(const std::string& name) {
-    const auto found = meshes_.find(name);
-    return found != meshes_.end() ? found->second
-                                  : meshes_.emplace(name, read_mesh(directory_ / name)).first->second;
+    if (const auto found = meshes_.find(name); found != meshes_.end()) return found->second;
+    const Mesh& mesh = meshes_.emplace(name, meshes::read_mesh(directory_ / name)).first->second;
+    for (const std::string& note : mesh.notes)
+        notes_.push_back(fmt::format("{}: {}", trace::shown((directory_ / name).string(), 200), note));
+    return mesh;
 }
 
 BuiltScene build_scene(const Field& root, const std::array<double, 3>& origin, MeshStore& meshes) {

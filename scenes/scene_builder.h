@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "meshes/mesh.h"
 #include "scenes/keys.h"
@@ -16,12 +17,15 @@ namespace regather::scenes {
 class MeshStore {
 public:
     explicit MeshStore(std::filesystem::path directory) : directory_(std::move(directory)) {}
-    /// Throws trace::DataError like read_mesh.
-    const Mesh& get(const std::string& name);
+    /// Throws trace::DataError like meshes::read_mesh.
+    const meshes::Mesh& get(const std::string& name);
+    /// Of all meshes read so far, each behind its file's name.
+    const std::vector<std::string>& notes() const { return notes_; }
 
 private:
     std::filesystem::path directory_;
-    std::map<std::string, Mesh> meshes_;
+    std::map<std::string, meshes::Mesh> meshes_;
+    std::vector<std::string> notes_;
 };
 
 struct BuiltScene {

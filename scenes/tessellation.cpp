@@ -201,42 +201,4 @@ Surface tessellate(const Ripple& ripple) {
     return surface;
 }
 
-double triangle_area(Vec3 a, Vec3 b, Vec3 c) {
-    const double ux = static_cast<double>(b.x) - a.x, uy = static_cast<double>(b.y) - a.y;
-    const double uz = static_cast<double>(b.z) - a.z, vx = static_cast<double>(c.x) - a.x;
-    const double vy = static_cast<double>(c.y) - a.y, vz = static_cast<double>(c.z) - a.z;
-    const double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-    return std::sqrt(x * x + y * y + z * z) / 2;
-}
-
-namespace {
-
-auto has_no_area(const Surface& surface) {
-    return [&surface](const std::array<std::uint32_t, 3>& t) {
-        return !(triangle_area(surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]) > 0);
-    };
-}
-
-}  // namespace
-
-std::uint64_t degenerate_count(const Surface& surface) {
-    return static_cast<std::uint64_t>(
-        std::count_if(surface.triangles.begin(), surface.triangles.end(), has_no_area(surface)));
-}
-
-std::uint64_t drop_degenerate(Surface& surface, std::vector<std::uint32_t>* tags) {
-    const auto gone = has_no_area(surface);
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-        if (gone(surface.triangles[t])) continue;
-        surface.triangles[kept] = surface.triangles[t];
-        if (tags != nullptr) (*tags)[kept] = (*tags)[t];
-        ++kept;
-    }
-    const std::uint64_t dropped = surface.triangles.size() - kept;
-    surface.triangles.resize(kept);
-    if (tags != nullptr) tags->resize(kept);
-    return dropped;
-}
-
 }  // namespace regather::scenes

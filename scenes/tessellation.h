@@ -7,17 +7,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "meshes/surface.h"
 #include "trace/vec.h"
 
 namespace regather::scenes {
 
+using meshes::Surface;
+using meshes::triangle_area;
 using trace::Vec3;
-
-struct Surface {
-    std::vector<Vec3> vertices;
-    std::vector<Vec3> normals;  ///< One a vertex, unit length; zero where the surface is flat-shaded.
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-};
 
 struct Quad {
     Vec3 corner, edge_u, edge_v;                ///< Faces along cross(edge_u, edge_v).
@@ -65,15 +62,5 @@ Surface tessellate(const Patch&);
 Surface tessellate(const Box&);
 Surface tessellate(const Sphere&);  ///< With smooth normals.
 Surface tessellate(const Ripple&);  ///< With smooth normals on the water's surface.
-
-/// Of the triangle a, b, c [m^2], in double precision.
-double triangle_area(Vec3 a, Vec3 b, Vec3 c);
-
-/// How many triangles have no area in float coordinates.
-std::uint64_t degenerate_count(const Surface&);
-
-/// Takes those triangles out and tells how many they were; of `tags`, one a triangle, those that belong to
-/// them.
-std::uint64_t drop_degenerate(Surface&, std::vector<std::uint32_t>* tags = nullptr);
 
 }  // namespace regather::scenes

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "imports/material_table.h"
+#include "meshes/polygon.h"
 
 namespace regather::imports {
 
@@ -19,10 +20,7 @@ inline constexpr std::size_t most_home_items = 20'000;  ///< Walls, rooms, piece
 inline constexpr double most_home_centimetres = 1e6;
 inline constexpr int most_group_depth = 16;
 
-struct PlanPoint {
-    double x = 0, y = 0;
-    friend bool operator==(PlanPoint, PlanPoint) = default;
-};
+using meshes::PlanPoint;
 
 struct HomeLevel {
     std::string id;

@@ -10,7 +10,6 @@
 #include "imports/archive.h"
 #include "imports/archived_model.h"
 #include "imports/homes/home.h"
-#include "imports/homes/polygon.h"
 #include "imports/homes/wall.h"
 #include "trace/error.h"
 #include "trace/text.h"

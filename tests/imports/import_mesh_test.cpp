@@ -17,6 +17,7 @@ using scenes::Scene;
 namespace {
 
 using ::testing::HasSubstr;
+using Up = MeshImportOptions::Up;
 
 // A tetrahedron 30 high along y, far from the origin.
 constexpr const char* model = R"(mtllib m.mtl
@@ -46,13 +47,13 @@ TEST(ImportMesh, TheObjectStandsInTheMiddleOfTheFloorAtItsSize) {
     const Scratch scratch;
     trace::write_whole(scratch / "m.obj", model);
     trace::write_whole(scratch / "m.mtl", library);
-    trace::Bounds3 bounds = bounds_of_object(import_mesh(scratch / "m.obj", {.y_up = true, .size = 3}));
+    trace::Bounds3 bounds = bounds_of_object(import_mesh(scratch / "m.obj", {.up = Up::y, .size = 3}));
     EXPECT_NEAR(bounds.min.z, 0, 1e-5);
     EXPECT_NEAR(bounds.max.z, 3, 1e-5);
     EXPECT_NEAR(bounds.min.x + bounds.max.x, 0, 1e-5);
     EXPECT_NEAR(bounds.extent().x, 1, 1e-5);
     EXPECT_NEAR(bounds.extent().y, 1, 1e-5);
-    bounds = bounds_of_object(import_mesh(scratch / "m.obj", {.y_up = false, .size = 3}));
+    bounds = bounds_of_object(import_mesh(scratch / "m.obj", {.up = Up::z, .size = 3}));
     EXPECT_NEAR(bounds.extent().z, 1, 1e-5);
     EXPECT_NEAR(bounds.extent().y, 3, 1e-5);
 }
@@ -60,8 +61,8 @@ TEST(ImportMesh, TheObjectStandsInTheMiddleOfTheFloorAtItsSize) {
 TEST(ImportMesh, FacesStayOutwardWhicheverAxisIsUp) {
     const Scratch scratch;
     trace::write_whole(scratch / "m.obj", model);
-    for (const bool y_up : {true, false}) {
-        const ImportedScene scene = import_mesh(scratch / "m.obj", {.y_up = y_up, .size = 3});
+    for (const Up up : {Up::x, Up::y, Up::z}) {
+        const ImportedScene scene = import_mesh(scratch / "m.obj", {.up = up, .size = 3});
         double volume = 0;
         for (const ImportedMesh& mesh : scene.meshes)
             if (scene.materials[mesh.material].name != "studio_floor")
@@ -71,6 +72,33 @@ TEST(ImportMesh, FacesStayOutwardWhicheverAxisIsUp) {
                                                 cross(mesh.surface.vertices[b], mesh.surface.vertices[c]))) /
                         6;
         EXPECT_NEAR(volume, 0.5, 1e-4);  // 1 x 1 x 3 / 6
+    }
+}
+
+TEST(ImportMesh, EachAxisOfTheFileGoesToItsOwn) {
+    // Edges of 1, 2 and 3 along x, y and z from one corner.
+    const Scratch scratch;
+    trace::write_whole(scratch / "m.obj",
+                       "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    // Where x, y and z of the file point in the scene, whose z is up.
+    const std::array<std::pair<Up, std::array<Vec3, 3>>, 3> cases{
+        {{Up::x, {{{0, 0, 1}, {-1, 0, 0}, {0, -1, 0}}}},
+         {Up::y, {{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}}},
+         {Up::z, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}}}};
+    for (const auto& [up, directions] : cases) {
+        const ImportedScene scene = import_mesh(scratch / "m.obj", {.up = up, .size = 3});
+        const Surface& surface = scene.meshes.back().surface;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const Vec3 edge = directions[axis] * static_cast<float>(axis + 1);
+            bool is_there = false;
+            for (const Vec3 a : surface.vertices)
+                for (const Vec3 b : surface.vertices) is_there |= length(b - a - edge) < 1e-5f;
+            EXPECT_TRUE(is_there) << axis;
+        }
+        const trace::Bounds3 bounds = bounds_of_object(scene);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            EXPECT_NEAR(std::abs(dot(bounds.extent(), directions[axis])), static_cast<float>(axis + 1),
+                        1e-5f);
     }
 }
 

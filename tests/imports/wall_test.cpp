@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "imports/homes/polygon.h"
 #include "meshes/weld.h"
 #include "trace/bounds.h"
 
