@@ -12,6 +12,7 @@
 #include <set>
 #include <tuple>
 
+#include "replay/student.h"
 #include "tests/replay/traced.h"
 #include "trace/error.h"
 
