@@ -101,7 +101,7 @@ Case weight_mean(float exponent, double degrees) {
                     reflected.add({weight}, static_cast<std::uint64_t>(i) + 1);
                 }
                 const double error = std::sqrt(reflected.variance(0, samples));
-                return Reading{std::fabs(reflected.mean[0] - albedo) / albedo, 4.5 * error / albedo + 1e-3};
+                return sampled(std::fabs(reflected.mean[0] - albedo) / albedo, 1e-3, error / albedo, 0.06);
             }};
 }
 
