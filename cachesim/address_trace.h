@@ -6,13 +6,15 @@
 //   din:  the traditional format of Dinero III and IV (Edler, Hill), as text: a label and a hexadecimal
 //   address a line. As
 //         in Dinero IV a record is the aligned 4-byte word that holds the address, and the rest of a line is
-//         ignored.
+//         passed over (notes() says so). Lines end with LF, CR LF or CR; blank ones are passed over, too.
 // docs/cachesim.md has both with examples.
 #pragma once
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "cachesim/lines.h"
 
@@ -42,6 +44,8 @@ public:
         std::string_view unit;              ///< What they count: records of columns, bytes of din text.
     };
     Position position() const;
+    /// What next() has passed over so far, for the user to know: one line each, none if all was read.
+    std::vector<std::string> notes() const;
 
     class Source;  ///< One for each format.
 private:

@@ -18,11 +18,9 @@ std::uint64_t lines_of(const CacheConfig& config) {
 }  // namespace
 
 ClassStats& ClassStats::operator+=(const ClassStats& other) {
+    MissClasses::operator+=(other);
     accesses += other.accesses;
     misses += other.misses;
-    compulsory += other.compulsory;
-    capacity += other.capacity;
-    conflict += other.conflict;
     writebacks += other.writebacks;
     used_bytes += other.used_bytes;
     return *this;
@@ -63,13 +61,10 @@ void AttributedCache::access_line(std::uint64_t line, std::uint32_t first, std::
         slot = slot_of_[id];
         if (slot == none) {
             ++mine.misses;
-            ++(missing == FullLru::first_touch ? mine.compulsory
-               : missing > 0                   ? mine.capacity
-                                               : mine.conflict);
+            mine.count(missing, 0);
             slot = fetch(id, set, by);
-        } else if (slot != set.newest) {
-            leave(set, slot);
-            enter(set, slot);
+        } else {
+            set.renew(slots_, slot);
         }
         last_line_ = line;
         last_slot_ = slot;
@@ -99,7 +94,7 @@ std::uint32_t AttributedCache::fetch(std::uint32_t id, Set& set, std::uint32_t b
     if (set.used == ways_) {
         slot = set.oldest;
         settle(slot);
-        leave(set, slot);
+        set.leave(slots_, slot);
         slot_of_[slots_[slot].id] = none;
         std::fill_n(used_.begin() + std::ptrdiff_t{slot} * words_, words_, 0);
     } else {
@@ -112,21 +107,8 @@ std::uint32_t AttributedCache::fetch(std::uint32_t id, Set& set, std::uint32_t b
     slots_[slot].fetched_by = by;
     slots_[slot].dirty_by = none;
     slot_of_[id] = slot;
-    enter(set, slot);
+    set.enter(slots_, slot);
     return slot;
-}
-
-void AttributedCache::leave(Set& set, std::uint32_t slot) {
-    const Slot& gone = slots_[slot];
-    (gone.newer == none ? set.newest : slots_[gone.newer].older) = gone.older;
-    (gone.older == none ? set.oldest : slots_[gone.older].newer) = gone.newer;
-}
-
-void AttributedCache::enter(Set& set, std::uint32_t slot) {
-    slots_[slot].newer = none;
-    slots_[slot].older = set.newest;
-    (set.newest == none ? set.oldest : slots_[set.newest].newer) = slot;
-    set.newest = slot;
 }
 
 /// Counts what is known when a line goes.

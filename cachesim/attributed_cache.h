@@ -12,13 +12,13 @@
 #include "cachesim/line_ids.h"
 #include "cachesim/lines.h"
 #include "cachesim/miss_class.h"
+#include "cachesim/recency_list.h"
 
 namespace regather::cachesim {
 
-struct ClassStats {
-    std::uint64_t accesses = 0;  ///< Line accesses.
-    std::uint64_t misses = 0;    ///< Lines fetched; the sum of the next three.
-    std::uint64_t compulsory = 0, capacity = 0, conflict = 0;
+struct ClassStats : MissClasses {
+    std::uint64_t accesses = 0;    ///< Line accesses.
+    std::uint64_t misses = 0;      ///< Lines fetched; the sum of the MissClasses.
     std::uint64_t writebacks = 0;  ///< Dirty lines evicted, charged to the class that wrote them last.
     /// Bytes of the lines that this class fetched which any class accessed before they were evicted; a line
     /// that is fetched again counts again.
@@ -50,20 +50,18 @@ public:
 
 private:
     static constexpr std::uint32_t none = ~std::uint32_t{0};
-    /// A line that is held; in the list of its set, in order of use.
-    struct Slot {
-        std::uint32_t id, newer, older;
-        std::uint32_t fetched_by, dirty_by;  // a class; or none: clean
+    /// A line that is held; in the list of its set.
+    struct Slot : Links {
+        std::uint32_t id = none;
+        std::uint32_t fetched_by = none, dirty_by = none;  // a class; or none: clean
     };
-    struct Set {
-        std::uint32_t newest = none, oldest = none, used = 0;
+    struct Set : RecencyList {
+        std::uint32_t used = 0;
     };
 
     void access_line(std::uint64_t line, std::uint32_t first, std::uint32_t last, Access kind,
                      std::uint32_t by);
     std::uint32_t fetch(std::uint32_t id, Set& set, std::uint32_t by);
-    void enter(Set& set, std::uint32_t slot);
-    void leave(Set& set, std::uint32_t slot);
     void settle(std::uint32_t slot);
     void mark(std::uint32_t slot, std::uint32_t first, std::uint32_t last);
 

@@ -14,7 +14,7 @@ void DistinctLines::add(std::span<const Line> lines) {
     for (const Line each : lines) {
         const std::uint64_t line = static_cast<std::uint64_t>(each);
         if (line >= bitmap_lines) {
-            high_.insert(line);
+            high_(each);
             continue;
         }
         const std::size_t word = line / 64;

@@ -1,12 +1,11 @@
 // cachesim/distinct.h -- counts different lines: times the line size this is the compulsory traffic, which no
-// order of the same accesses can go below. A bitmap for low line numbers, a hash set above.
+// order of the same accesses can go below. A bitmap for low line numbers, a hash table above.
 #pragma once
 #include <cstdint>
 #include <span>
-#include <unordered_set>
 #include <vector>
 
-#include "cachesim/cache.h"
+#include "cachesim/line_ids.h"
 
 namespace regather::cachesim {
 
@@ -18,7 +17,7 @@ public:
 private:
     std::vector<std::uint64_t> low_;  // one bit a line, as long as the largest low line needs
     std::uint64_t low_count_ = 0;
-    std::unordered_set<std::uint64_t> high_;
+    LineIds high_;
 };
 
 }  // namespace regather::cachesim

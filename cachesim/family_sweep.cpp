@@ -44,12 +44,10 @@ std::vector<FamilyRow> FamilySweep::rows() {
         const FamilyCounts& counts = size.family.counts();
         const auto add = [&](std::uint64_t lines, std::uint32_t ways, std::uint64_t misses,
                              std::uint64_t conflicts) {
-            rows.push_back({{lines * size.line_bytes, size.line_bytes, ways},
+            rows.push_back({{counts.compulsory, misses - counts.compulsory - conflicts, conflicts},
+                            {lines * size.line_bytes, size.line_bytes, ways},
                             counts.accesses,
-                            misses,
-                            counts.compulsory,
-                            misses - counts.compulsory - conflicts,
-                            conflicts});
+                            misses});
         };
         for (const FamilyCounts::Level& level : counts.levels)
             for (std::uint32_t ways = 1; ways <= level.level.ways; ++ways)

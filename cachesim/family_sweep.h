@@ -8,12 +8,14 @@
 
 #include "cachesim/lines.h"
 #include "cachesim/lru_family.h"
+#include "cachesim/miss_class.h"
 
 namespace regather::cachesim {
 
-struct FamilyRow {
-    CacheConfig config;
-    std::uint64_t accesses = 0, misses = 0, compulsory = 0, capacity = 0, conflict = 0;
+/// `misses` is the sum of the MissClasses, if those were asked for.
+struct FamilyRow : MissClasses {
+    CacheConfig config{};
+    std::uint64_t accesses = 0, misses = 0;
 };
 
 class FamilySweep {

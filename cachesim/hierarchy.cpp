@@ -22,6 +22,13 @@ bool passes_misses(const LevelConfig& config) {
     return config.inclusion == Inclusion::exclusive || config.cache.write_miss == WriteMiss::no_allocate;
 }
 
+/// An access of the demand; `held`: the line is here, if only some of it.
+void count(LevelStats& stats, bool held, bool hit) {
+    ++stats.accesses;
+    ++(hit ? stats.hits : stats.misses);
+    if (held && !hit) ++stats.sector_misses;
+}
+
 }  // namespace
 
 LevelStats& LevelStats::operator+=(const LevelStats& other) {
@@ -78,11 +85,7 @@ Hierarchy::Supply Hierarchy::fetch(std::size_t level, Line line, Sectors need, A
     LevelStats& stats = here.of(asker.region);
     LineState* state = locate(here, line, asker);
     const bool hit = state && (need & ~state->valid) == 0;
-    if (asker.demand) {
-        ++stats.accesses;
-        ++(hit ? stats.hits : stats.misses);
-        if (state && !hit) ++stats.sector_misses;
-    }
+    if (asker.demand) count(stats, state != nullptr, hit);
     if (here.is(Inclusion::exclusive)) {
         // What is here moves up; what is not passes by.
         const std::optional<LineState> moved = take(here, line);
@@ -114,11 +117,7 @@ void Hierarchy::store(std::size_t level, Line line, Bytes bytes, Asker asker) {
     const Sectors need = sectors_of(bytes);
     LineState* state = locate(here, line, asker);
     const bool hit = state && (need & ~state->valid) == 0;
-    if (asker.demand) {
-        ++stats.accesses;
-        ++(hit ? stats.hits : stats.misses);
-        if (state && !hit) ++stats.sector_misses;
-    }
+    if (asker.demand) count(stats, state != nullptr, hit);
     if (!hit && passes_misses(here.config)) return pass(level, line, bytes, asker);
     if (hit)
         use(here, state);

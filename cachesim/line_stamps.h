@@ -1,5 +1,5 @@
-// cachesim/line_stamps.h -- the time stamps of each line's last touch: a table for low line numbers, open
-// addressing above.
+// cachesim/line_stamps.h -- the time stamps of each line's last touch: an array for low line numbers, a
+// hash table above.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -7,12 +7,14 @@
 #include <vector>
 
 #include "cachesim/cache.h"
+#include "cachesim/line_table.h"
 
 namespace regather::cachesim {
 
 /// Of the line's last touch among all, and among those that a filter let through. 0: none.
 struct Stamps {
     std::int32_t all = 0, filtered = 0;
+    bool free() const { return all == 0; }
 };
 
 class LineStamps {
@@ -21,7 +23,7 @@ public:
     Stamps& of(Line line) {
         const auto number = static_cast<std::uint64_t>(line);
         if (number < low_.size()) return low_[number];
-        return number < low_lines ? grown(number) : hashed(number);
+        return number < low_lines ? grown(number) : high_.enter(number);
     }
     /// Whether all of them are in the table, which this makes large enough when they can be.
     bool low(std::span<const Line> lines) {
@@ -40,22 +42,15 @@ public:
     template <class Each>
     void for_each(Each&& each) {
         for (Stamps& stamps : low_) each(stamps);
-        for (Slot& slot : high_) each(slot.stamps);
+        high_.for_each(each);
     }
 
 private:
-    struct Slot {
-        std::uint64_t line = 0;
-        Stamps stamps;  // all = 0: free
-    };
     static constexpr std::uint64_t low_lines = std::uint64_t{1} << 24;
     Stamps& grown(std::uint64_t line);
-    Stamps& hashed(std::uint64_t line);
-    Slot& slot_of(std::uint64_t line);
 
     std::vector<Stamps> low_;
-    std::vector<Slot> high_;  // a power of two of slots, at most half of them taken
-    std::uint64_t taken_ = 0;
+    LineTable<Stamps> high_;
 };
 
 }  // namespace regather::cachesim

@@ -34,8 +34,9 @@ std::optional<LineState> LineStore::remove(Line line) {
 std::vector<HeldLine> LineStore::drain() {
     std::vector<HeldLine> lines;
     for (std::size_t slot = 0; slot < states_.size(); ++slot)
-        if (const std::optional<Line> line = cache_.line_at(slot)) lines.push_back({*line, states_[slot]});
-    cache_.drain();
+        if (const std::optional<Resident> held = cache_.at(slot))
+            lines.push_back({held->line, states_[slot]});
+    cache_.clear();
     return lines;
 }
 

@@ -4,31 +4,39 @@
 
 namespace regather::cachesim {
 
+void MissClasses::count(std::uint32_t missing, std::uint32_t rank) {
+    ++(missing == FullLru::first_touch ? compulsory : missing > rank ? capacity : conflict);
+}
+
+MissClasses& MissClasses::operator+=(const MissClasses& other) {
+    compulsory += other.compulsory;
+    capacity += other.capacity;
+    conflict += other.conflict;
+    return *this;
+}
+
 FullLru::FullLru(std::span<const std::uint64_t> capacities)
-    : capacities_(capacities.begin(), capacities.end()), last_(capacities.size(), none) {}
+    : capacities_(capacities.begin(), capacities.end()), last_(capacities.size(), no_entry) {}
 
 std::uint32_t FullLru::access(std::uint32_t id) {
-    if (id == newest_) return 0;
+    if (id == order_.newest) return 0;
     const bool first = id >= nodes_.size();
     assert(!first || id == nodes_.size());
     std::uint32_t missing = 0;
     if (first) {
         nodes_.push_back({});
-        while (missing < last_.size() && last_[missing] != none) ++missing;
+        while (missing < last_.size() && last_[missing] != no_entry) ++missing;
     } else {
-        const Node node = nodes_[id];
-        missing = node.missing;
+        missing = nodes_[id].missing;
         // Only the smallest cache that holds it can have it at its end.
-        if (missing < last_.size() && last_[missing] == id) last_[missing] = node.newer;
-        nodes_[node.newer].older = node.older;
-        (node.older == none ? oldest_ : nodes_[node.older].newer) = node.newer;
+        if (missing < last_.size() && last_[missing] == id) last_[missing] = nodes_[id].newer;
+        order_.leave(nodes_, id);
+        nodes_[id].missing = 0;
     }
-    nodes_[id] = {none, newest_, 0};
-    (newest_ == none ? oldest_ : nodes_[newest_].newer) = id;
-    newest_ = id;
+    order_.enter(nodes_, id);
     push_down(missing);
     if (!first) return missing;
-    if (missing < last_.size() && nodes_.size() == capacities_[missing]) last_[missing] = oldest_;
+    if (missing < last_.size() && nodes_.size() == capacities_[missing]) last_[missing] = order_.oldest;
     return first_touch;
 }
 

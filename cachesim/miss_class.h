@@ -7,10 +7,16 @@
 #include <span>
 #include <vector>
 
+#include "cachesim/recency_list.h"
+
 namespace regather::cachesim {
 
 struct MissClasses {
     std::uint64_t compulsory = 0, capacity = 0, conflict = 0;
+
+    /// One miss: `missing` as FullLru::access() gave it, `rank` of the cache among the sizes of that FullLru.
+    void count(std::uint32_t missing, std::uint32_t rank);
+    MissClasses& operator+=(const MissClasses& other);
     friend bool operator==(const MissClasses&, const MissClasses&) = default;
 };
 
@@ -28,17 +34,15 @@ public:
     std::uint32_t access(std::uint32_t id);
 
 private:
-    struct Node {
-        std::uint32_t newer, older;
-        std::uint32_t missing;  // how many caches do not hold it
+    struct Node : Links {
+        std::uint32_t missing = 0;  // how many caches do not hold it
     };
-    static constexpr std::uint32_t none = ~std::uint32_t{0};
     void push_down(std::uint32_t caches);
 
     std::vector<std::uint64_t> capacities_;
     std::vector<std::uint32_t> last_;  // the line that goes next from each full cache
     std::vector<Node> nodes_;          // by id
-    std::uint32_t newest_ = none, oldest_ = none;
+    RecencyList order_;
 };
 
 }  // namespace regather::cachesim

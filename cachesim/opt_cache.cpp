@@ -81,10 +81,6 @@ void OptCache::access(std::span<std::uint8_t> missed) {
     for (std::uint8_t& miss : missed) miss = access_next();
 }
 
-void OptCache::access_rest() {
-    while (now_ < stream_.size()) access_next();
-}
-
 /// True for a miss.
 bool OptCache::access_next() {
     const std::uint32_t id = stream_.id(now_);

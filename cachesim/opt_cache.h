@@ -61,8 +61,6 @@ public:
     /// The next accesses of the stream, one for each entry of `missed`, which becomes 1 for a miss and 0 for
     /// a hit.
     void access(std::span<std::uint8_t> missed);
-    /// All that are left.
-    void access_rest();
     /// Evicts everything, so that dirty lines are counted as written back.
     void flush();
 

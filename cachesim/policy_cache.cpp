@@ -4,17 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
-#include <cassert>
 #include <cstring>
 
+#include "cachesim/line_table.h"
+#include "cachesim/recency_list.h"
 #include "trace/error.h"
 
 namespace regather::cachesim {
 
 namespace {
 
-constexpr std::uint32_t none = ~std::uint32_t{0};
+constexpr std::uint32_t none = no_entry;
 constexpr std::uint64_t max_searched_ways = 32;
 constexpr std::uint8_t distant = 3, long_ahead = 2, near = 0;  // re-reference predictions of srrip
 
@@ -28,14 +28,6 @@ bool is_dirty(std::uint8_t state) {
 trace::Region region_of(std::uint8_t state) {
     return static_cast<trace::Region>((state >> 1) - 1);
 }
-
-/// The ends of a set's list of slots in order of use (lru) or of fetch (fifo).
-struct Ends {
-    std::uint32_t newest = none, oldest = none;
-};
-struct Links {
-    std::uint32_t newer = none, older = none;
-};
 
 }  // namespace
 
@@ -51,27 +43,23 @@ public:
           states_(lines_.size(), 0),
           used_(config.sets(), 0),
           first_empty_(config.sets(), 0) {
-        if (ways_ > max_searched_ways) {
-            buckets_.resize(std::bit_ceil(lines_.size()));
-            bucket_shift_ = 64 - std::countr_zero(buckets_.size());
-            next_in_bucket_.resize(lines_.size());
-        }
         forget();
     }
 
     std::uint64_t set(Line line) const { return index_(line); }
-    std::uint32_t ways() const { return ways_; }
     std::size_t slots() const { return lines_.size(); }
-    Line line(std::uint32_t slot) const { return Line{lines_[slot]}; }
     std::uint8_t& state(std::uint32_t slot) { return states_[slot]; }
-    std::uint8_t state(std::uint32_t slot) const { return states_[slot]; }
+    std::optional<Resident> at(std::uint32_t slot) const {
+        const std::uint8_t state = states_[slot];
+        if (state == 0) return {};
+        return Resident{Line{lines_[slot]}, is_dirty(state), region_of(state)};
+    }
 
     std::uint32_t find(Line line) const {
         const auto number = static_cast<std::uint64_t>(line);
-        if (!next_in_bucket_.empty()) {
-            std::uint32_t slot = buckets_[bucket(number)];
-            while (slot != none && lines_[slot] != number) slot = next_in_bucket_[slot];
-            return slot;
+        if (ways_ > max_searched_ways) {
+            const LineNumber* const held = slots_.find(number);
+            return held ? held->number : none;
         }
         const auto first = static_cast<std::uint32_t>(set(line) * ways_);
         for (std::uint32_t slot = first; slot < first + ways_; ++slot)
@@ -83,10 +71,7 @@ public:
     void use(std::uint32_t slot) {
         switch (policy_) {
             case Policy::lru:
-                if (order_[slot / ways_].newest != slot) {
-                    leave(slot);
-                    enter(slot);
-                }
+                order_[slot / ways_].renew(links_, slot);
                 break;
             case Policy::plru:
                 point_away(slot);
@@ -146,12 +131,8 @@ public:
     /// Empties a slot.
     void clear(std::uint32_t slot) {
         const std::uint64_t set = slot / ways_;
-        if (!order_.empty()) leave(slot);
-        if (!next_in_bucket_.empty()) {
-            std::uint32_t* link = &buckets_[bucket(lines_[slot])];
-            while (*link != slot) link = &next_in_bucket_[*link];
-            *link = next_in_bucket_[slot];
-        }
+        if (!order_.empty()) order_[set].leave(links_, slot);
+        if (ways_ > max_searched_ways) slots_.erase(lines_[slot]);
         states_[slot] = 0;
         --used_[set];
         first_empty_[set] = std::min(first_empty_[set], static_cast<std::uint32_t>(slot % ways_));
@@ -166,12 +147,8 @@ public:
         ++used_[set];
         lines_[slot] = static_cast<std::uint64_t>(line);
         states_[slot] = state;
-        if (!next_in_bucket_.empty()) {
-            std::uint32_t& first = buckets_[bucket(lines_[slot])];
-            next_in_bucket_[slot] = first;
-            first = slot;
-        }
-        if (!order_.empty()) enter(slot);
+        if (ways_ > max_searched_ways) slots_.enter(lines_[slot]) = {slot};
+        if (!order_.empty()) order_[set].enter(links_, slot);
         if (policy_ == Policy::plru) point_away(slot);
         if (policy_ == Policy::srrip) predictions_[slot] = long_ahead;
         return slot;
@@ -182,7 +159,7 @@ public:
         std::fill(states_.begin(), states_.end(), std::uint8_t{0});
         std::fill(used_.begin(), used_.end(), 0u);
         std::fill(first_empty_.begin(), first_empty_.end(), 0u);
-        std::fill(buckets_.begin(), buckets_.end(), none);
+        slots_.clear();
         if (policy_ == Policy::lru || policy_ == Policy::fifo) {
             order_.assign(used_.size(), {});
             links_.assign(lines_.size(), {});
@@ -192,22 +169,6 @@ public:
     }
 
 private:
-    std::size_t bucket(std::uint64_t number) const { return number * 0x9e3779b97f4a7c15 >> bucket_shift_; }
-
-    void leave(std::uint32_t slot) {
-        Ends& ends = order_[slot / ways_];
-        const auto [newer, older] = links_[slot];
-        (newer == none ? ends.newest : links_[newer].older) = older;
-        (older == none ? ends.oldest : links_[older].newer) = newer;
-    }
-
-    void enter(std::uint32_t slot) {
-        Ends& ends = order_[slot / ways_];
-        links_[slot] = {none, ends.newest};
-        (ends.newest == none ? ends.oldest : links_[ends.newest].newer) = slot;
-        ends.newest = slot;
-    }
-
     /// Node n of a set's tree has the children 2n and 2n + 1; leaf ways + w is way w. A bit says which half
     /// is next to go.
     void point_away(std::uint32_t slot) {
@@ -223,9 +184,8 @@ private:
     std::vector<std::uint64_t> lines_;
     std::vector<std::uint8_t> states_;
     std::vector<std::uint32_t> used_, first_empty_;  // by set; no way below first_empty_ is empty
-    std::vector<std::uint32_t> buckets_, next_in_bucket_;
-    int bucket_shift_ = 0;
-    std::vector<Ends> order_;  // lru, fifo
+    LineTable<LineNumber> slots_;                    // of more ways than are searched
+    std::vector<RecencyList> order_;                 // of a set, by use (lru) or by fetch (fifo)
     std::vector<Links> links_;
     std::vector<std::uint8_t> tree_, predictions_;  // plru; srrip
 };
@@ -239,11 +199,6 @@ const PolicyConfig& checked(const PolicyConfig& config) {
     return config;
 }
 
-template <class Sets>
-Evicted evicted_from(const Sets& sets, std::uint32_t slot) {
-    return {sets.line(slot), is_dirty(sets.state(slot)), region_of(sets.state(slot))};
-}
-
 }  // namespace
 
 PolicyCache::PolicyCache(const PolicyConfig& config)
@@ -252,25 +207,11 @@ PolicyCache::~PolicyCache() = default;
 PolicyCache::PolicyCache(PolicyCache&&) noexcept = default;
 PolicyCache& PolicyCache::operator=(PolicyCache&&) noexcept = default;
 
-bool PolicyCache::touch(Line line, Access kind, trace::Region region) {
-    const std::uint32_t slot = sets_->find(line);
-    if (slot == none) return false;
-    sets_->use(slot);
-    if (kind == Access::write && config_.write == WritePolicy::back)
-        sets_->state(slot) = packed(true, region);
-    return true;
-}
-
-std::optional<Evicted> PolicyCache::insert(Line line, bool dirty, trace::Region region) {
-    assert(!holds(line));
-    return place(line, dirty, region).evicted;
-}
-
 PolicyCache::Placed PolicyCache::place(Line line, bool dirty, trace::Region region) {
     Placed placed{};
     if (const std::uint64_t set = sets_->set(line); sets_->full(set)) {
         const std::uint32_t slot = sets_->victim(set);
-        placed.evicted = evicted_from(*sets_, slot);
+        placed.evicted = sets_->at(slot);
         sets_->evict(slot);
     }
     placed.slot = sets_->fill(line, packed(dirty, region));
@@ -285,37 +226,8 @@ void PolicyCache::remove_at(std::size_t slot) {
     sets_->clear(static_cast<std::uint32_t>(slot));
 }
 
-std::optional<Evicted> PolicyCache::victim_for(Line line) const {
-    const std::uint64_t set = sets_->set(line);
-    if (!sets_->full(set)) return {};
-    return evicted_from(*sets_, sets_->victim(set));
-}
-
-std::optional<Held> PolicyCache::held(Line line) const {
-    const std::uint32_t slot = sets_->find(line);
-    if (slot == none) return {};
-    const std::uint8_t state = sets_->state(slot);
-    return Held{is_dirty(state), region_of(state)};
-}
-
-std::optional<Held> PolicyCache::remove(Line line) {
-    const std::optional<Held> found = held(line);
-    if (found) sets_->clear(sets_->find(line));
-    return found;
-}
-
-bool PolicyCache::set_dirty(Line line, bool dirty, trace::Region region) {
-    const std::uint32_t slot = sets_->find(line);
-    if (slot != none) sets_->state(slot) = packed(dirty, region);
-    return slot != none;
-}
-
-std::vector<Evicted> PolicyCache::drain() {
-    std::vector<Evicted> lines;
-    for (std::uint32_t slot = 0; slot < sets_->slots(); ++slot)
-        if (sets_->state(slot) != 0) lines.push_back(evicted_from(*sets_, slot));
+void PolicyCache::clear() {
     sets_->forget();
-    return lines;
 }
 
 std::size_t PolicyCache::slot(Line line) const {
@@ -323,24 +235,17 @@ std::size_t PolicyCache::slot(Line line) const {
     return slot == none ? nowhere : slot;
 }
 
-std::optional<Line> PolicyCache::line_at(std::size_t slot) const {
-    const auto at = static_cast<std::uint32_t>(slot);
-    if (sets_->state(at) == 0) return {};
-    return sets_->line(at);
-}
-
-std::vector<Line> PolicyCache::set_of(Line line) const {
-    std::vector<Line> lines;
-    const auto first = static_cast<std::uint32_t>(sets_->set(line) * sets_->ways());
-    for (std::uint32_t slot = first; slot < first + sets_->ways(); ++slot)
-        if (sets_->state(slot) != 0) lines.push_back(sets_->line(slot));
-    return lines;
+std::optional<Resident> PolicyCache::at(std::size_t slot) const {
+    return sets_->at(static_cast<std::uint32_t>(slot));
 }
 
 PolicyCache::Outcome PolicyCache::access(Line line, Access kind, trace::Region region, std::uint32_t bytes) {
     PolicyStats& mine = stats_[static_cast<std::size_t>(region)];
     const bool writes = kind == Access::write, through = writes && config_.write == WritePolicy::through;
-    const bool hit = touch(line, kind, region);
+    const std::uint32_t slot = sets_->find(line);
+    const bool hit = slot != none;
+    if (hit) sets_->use(slot);
+    if (hit && writes && !through) sets_->state(slot) = packed(true, region);
     const bool fetches = !hit && !(writes && config_.write_miss == WriteMiss::no_allocate);
     ++mine.accesses;
     mine.misses += !hit;
@@ -350,15 +255,17 @@ PolicyCache::Outcome PolicyCache::access(Line line, Access kind, trace::Region r
         mine.passed_bytes += bytes;
     }
     Outcome outcome{hit, {}};
-    if (fetches) outcome.evicted = insert(line, writes && !through, region);
+    if (fetches) outcome.evicted = place(line, writes && !through, region).evicted;
     if (outcome.evicted && outcome.evicted->dirty)
         ++stats_[static_cast<std::size_t>(outcome.evicted->region)].writebacks;
     return outcome;
 }
 
 void PolicyCache::flush() {
-    for (const Evicted& evicted : drain())
-        if (evicted.dirty) ++stats_[static_cast<std::size_t>(evicted.region)].writebacks;
+    for (std::uint32_t slot = 0; slot < sets_->slots(); ++slot)
+        if (const std::optional<Resident> held = sets_->at(slot); held && held->dirty)
+            ++stats_[static_cast<std::size_t>(held->region)].writebacks;
+    clear();
 }
 
 PolicyStats PolicyCache::total() const {

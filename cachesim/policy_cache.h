@@ -1,7 +1,7 @@
 // cachesim/policy_cache.h -- one exact cache of any policy but opt (policy.h), of any number of sets and
-// ways, with 64-bit lines and counts. Its steps are open, so that hierarchies can be built of them: touch,
-// insert and remove count nothing; access() is a whole cache between its user and memory, and counts. Up to
-// 32 ways a set is searched way by way, above through a hash table.
+// ways, with 64-bit lines and counts. Its steps are open, so that hierarchies can be built
+// of them (line_store.h); access() is a whole cache between its user and memory, and counts. Up to 32 ways a
+// set is searched way by way, above through a hash table.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -16,18 +16,12 @@
 
 namespace regather::cachesim {
 
-/// What is known of a line held. `region`: who wrote a dirty line last; who brought a clean line in.
-struct Held {
-    bool dirty = false;
-    trace::Region region = trace::Region::other;
-    friend bool operator==(const Held&, const Held&) = default;
-};
-
-struct Evicted {
+/// A line held. `region`: who wrote a dirty line last; who brought a clean line in.
+struct Resident {
     Line line{};
     bool dirty = false;
-    trace::Region region = trace::Region::other;  ///< As in Held.
-    friend bool operator==(const Evicted&, const Evicted&) = default;
+    trace::Region region = trace::Region::other;
+    friend bool operator==(const Resident&, const Resident&) = default;
 };
 
 class PolicyCache {
@@ -40,43 +34,28 @@ public:
 
     // ---- the steps: they count nothing ----
 
-    /// Uses `line` if it is held: the policy learns of the use, and a write makes it dirty (not with
-    /// WritePolicy::through). False, and nothing changes, if it is not held.
-    bool touch(Line line, Access kind, trace::Region region);
-    /// Brings in `line`, which must not be held, and returns what had to go for it, if anything. `dirty` is
-    /// taken as it is, with every WritePolicy.
-    std::optional<Evicted> insert(Line line, bool dirty, trace::Region region);
-    /// Takes `line` out, if it is held; the way becomes empty.
-    std::optional<Held> remove(Line line);
-    bool holds(Line line) const { return held(line).has_value(); }
-    std::optional<Held> held(Line line) const;  ///< Not a use.
-    /// Marks a line that is held as dirty, or as clean; not a use. False if it is not held.
-    bool set_dirty(Line line, bool dirty, trace::Region region);
-    /// What insert(line) would evict now. Random draws the same way at the next insert().
-    std::optional<Evicted> victim_for(Line line) const;
-    /// Takes out everything, set by set and way by way from 0 up.
-    std::vector<Evicted> drain();
     /// Where `line` is held: set x ways + way, the same for as long as it stays. What a level knows of its
     /// lines can stand beside the cache, by slot (line_store.h).
     std::size_t slot(Line line) const;  ///< nowhere, if it is not held.
     static constexpr std::size_t nowhere = ~std::size_t{0};
-    std::optional<Line> line_at(std::size_t slot) const;  ///< None: the way is empty.
+    std::optional<Resident> at(std::size_t slot) const;  ///< None: the way is empty.
     struct Placed {
         std::size_t slot;
-        std::optional<Evicted> evicted;
+        std::optional<Resident> evicted;
     };
-    /// insert(), touch() with a read, and remove(), by the slot of a line that is held.
+    /// Brings in `line`, which must not be held, and returns what had to go for it, if anything. `dirty` is
+    /// taken as it is, with every WritePolicy.
     Placed place(Line line, bool dirty, trace::Region region);
-    void use_at(std::size_t slot);
-    void remove_at(std::size_t slot);
-    /// The lines of the set that `line` lives in, in the order of the ways, empty ways left out.
-    std::vector<Line> set_of(Line line) const;
+    void use_at(std::size_t slot);     ///< The policy learns of a use. Of a slot that holds a line.
+    void remove_at(std::size_t slot);  ///< The way becomes empty. Of a slot that holds a line.
+    /// Takes out everything.
+    void clear();
 
     // ---- a whole cache, which counts ----
 
     struct Outcome {
         bool hit;
-        std::optional<Evicted> evicted;
+        std::optional<Resident> evicted;
     };
     /// One access to `bytes` bytes of the line; reads do not ask for `bytes`.
     Outcome access(Line line, Access kind, trace::Region region, std::uint32_t bytes);

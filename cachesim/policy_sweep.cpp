@@ -108,9 +108,7 @@ private:
             sum.capacity += missed & (full & !first);
             sum.conflict += missed & !full;
         }
-        classes_.compulsory += sum.compulsory;
-        classes_.capacity += sum.capacity;
-        classes_.conflict += sum.conflict;
+        classes_ += sum;
     }
 
     PolicyConfig config_;

@@ -4,7 +4,7 @@
 // others as PolicyCache. Caches are simulated side by side on the threads of oneTBB; the counts do not depend
 // on their number.
 //
-// Memory beside the caches, for each line size: 35 to 60 bytes a different line for the classes; for opt see
+// Memory beside the caches, for each line size: 40 to 65 bytes a different line for the classes; for opt see
 // opt_cache.h.
 #pragma once
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "capture/film.h"
 
-#include <cmath>
+#include "capture/moments.h"
 
 namespace regather::capture {
 namespace {
@@ -58,7 +58,7 @@ void Film::add(const PixelWork& work, const Gathered& gathered, const Gathered& 
     const auto count = static_cast<std::uint32_t>(work.radiance.size() / samples_);
     for (std::uint32_t i = 0; i < count; ++i) {
         Sums pixel{};
-        double mean = 0, squares = 0;  // of the eye rays' luminance, by Welford
+        MomentsOf<1> seen_light;  // luminance of the eye rays
         std::uint32_t queries = 0;
         for (std::uint32_t s = 0; s < samples_; ++s) {
             Sums sums{};
@@ -79,9 +79,7 @@ void Film::add(const PixelWork& work, const Gathered& gathered, const Gathered& 
                 light += luminance(sums[l][0], sums[l][1], sums[l][2]);
                 for (std::size_t c = 0; c < 3; ++c) pixel[l][c] += sums[l][c];
             }
-            const double step = light - mean;
-            mean += step / (s + 1);
-            squares += step * (light - mean);
+            seen_light.add({light}, s + 1);
         }
         std::array<double, 3> sum{};
         for (std::size_t l = 0; l < pixel.size(); ++l) {
@@ -93,8 +91,7 @@ void Film::add(const PixelWork& work, const Gathered& gathered, const Gathered& 
         }
         image_.pixels.push_back(to_float(sum));
         layers_.query_count.push_back(queries);
-        if (samples_ > 1)
-            layers_.variance.push_back(static_cast<float>(squares / (samples_ - 1.0) / samples_));
+        if (samples_ > 1) layers_.variance.push_back(static_cast<float>(seen_light.variance(0, samples_)));
     }
 }
 

@@ -58,20 +58,6 @@ PathCounts& PathCounts::operator+=(const PathCounts& other) {
     return *this;
 }
 
-void Moments::add(const Rgb& sample, std::uint64_t number) {
-    for (std::size_t c = 0; c < 3; ++c) {
-        const double before = sample[c] - mean[c];
-        mean[c] += before / static_cast<double>(number);
-        squares[c] += before * (sample[c] - mean[c]);
-    }
-}
-
-double Moments::variance(std::size_t channel, std::uint64_t samples) const {
-    if (samples < 2) return 0;
-    const auto n = static_cast<double>(samples);
-    return squares[channel] / ((n - 1) * n);
-}
-
 /// One path from the eye. Throughput and sums are doubles: after 10,000 surfaces of albedo 0.9999 the
 /// roundings of floats would show.
 class PathTracer::Path {

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "capture/lights.h"
+#include "capture/moments.h"
 #include "capture/nonfinite.h"
 #include "capture/ray_caster.h"
 #include "capture/view_plane.h"
@@ -41,19 +42,6 @@ struct PathCounts {
     PathCounts& operator+=(const PathCounts& other);
     friend bool operator==(const PathCounts&, const PathCounts&) = default;
 };
-
-/// Mean and spread of one pixel's samples, by channel (Welford 1962): numbers added one by one give the same
-/// bits however they are cut into runs.
-struct Moments {
-    std::array<double, 3> mean{};
-    std::array<double, 3> squares{};  ///< Sum of squared distances from the mean.
-    /// `number` of samples with this one.
-    void add(const std::array<double, 3>& sample, std::uint64_t number);
-    /// Of the mean, for one channel; 0 for fewer than two samples.
-    double variance(std::size_t channel, std::uint64_t samples) const;
-    friend bool operator==(const Moments&, const Moments&) = default;
-};
-static_assert(sizeof(Moments) == 48);
 
 class PathTracer {
 public:

@@ -126,6 +126,7 @@ std::string all_lru(const Options& options, const Console& console) {
             const auto [done, total, unit] = trace.position();
             if (total != 0) progress.update("cachesim: all lru", unit, done, total);
         }
+        for (const std::string& note : trace.notes()) progress.note(note);
     }
     std::string text(header);
     for (const cachesim::FamilyRow& row : sweep.rows()) {
@@ -150,6 +151,7 @@ std::vector<cachesim::PolicyRow> simulate(const Options& options,
         const auto [done, total, unit] = trace.position();
         if (total != 0) progress.update("cachesim", unit, done, total);
     }
+    for (const std::string& note : trace.notes()) progress.note(note);
     return sweep.finish([&](std::uint64_t done, std::uint64_t total) {
         progress.update("cachesim: opt", "accesses", done, total);
     });

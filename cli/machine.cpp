@@ -197,6 +197,7 @@ std::string run_machines(std::span<const Machine> machines, const cachesim::Addr
         const auto [done, total, unit] = trace.position();
         if (total != 0) progress("cachesim", unit, done, total);
     }
+    for (const std::string& note : trace.notes()) progress.note(note);
     std::string csv = machine_header();
     for (std::size_t i = 0; i < machines.size(); ++i) {
         hierarchies[i].flush();

@@ -35,6 +35,12 @@ void Progress::clear() {
     shown_ = false;
 }
 
+void Progress::note(std::string_view text) {
+    const std::lock_guard lock(mutex_);
+    fmt::print(stderr, "{}note: {}\n", shown_ ? "\r\x1b[K" : "", text);
+    shown_ = false;
+}
+
 void Progress::update(std::string_view stage, std::string_view unit, std::uint64_t done,
                       std::uint64_t total) {
     if (!terminal_) return;

@@ -22,6 +22,8 @@ public:
 
     /// From any thread. A change of `stage` starts the clock again; `unit` is what is counted ("pixels").
     void update(std::string_view stage, std::string_view unit, std::uint64_t done, std::uint64_t total);
+    /// A line that stays, on stderr, whatever stderr is: "note: TEXT".
+    void note(std::string_view text);
     /// update(), for as long as this lives.
     experiment::ProgressListener listener() {
         return [this](std::string_view stage, std::string_view unit, std::uint64_t done,

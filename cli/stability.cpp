@@ -50,7 +50,8 @@ void run(const Options& options, const Console& console) {
 
     std::vector<std::pair<const study::CaseGroup*, study::Case>> cases;
     for (const study::CaseGroup* group : groups)
-        for (study::Case& one : group->cases()) cases.emplace_back(group, std::move(one));
+        for (study::Case& one : group->cases())
+            if (!options.quick || !one.full_only) cases.emplace_back(group, std::move(one));
     std::vector<results::StabilityRow> rows;
     {
         Progress progress(console);

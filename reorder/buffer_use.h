@@ -50,24 +50,6 @@ struct BufferUse {
     std::optional<PixelPasses> state;
 
     bool empty() const { return !batches && !buckets && !state; }
-
-    std::uint64_t written_bytes() const { return record_bytes() + pixel_bytes(); }
-    std::uint64_t read_bytes() const {
-        return record_bytes() + (state ? pixel_bytes() * (state->passes - 1) : 0);
-    }
-
-private:
-    /// Records are read as often as they are written.
-    std::uint64_t record_bytes() const {
-        std::uint64_t bytes = 0;
-        if (batches && !batches->ends.empty())
-            bytes += batches->ends.back() * batches->record_bytes * batches->rounds;
-        if (buckets) bytes += buckets->bucket.size() * buckets->record_bytes;
-        return bytes;
-    }
-    std::uint64_t pixel_bytes() const {
-        return state ? std::uint64_t{state->image_width} * state->image_height * state->state_bytes : 0;
-    }
 };
 
 }  // namespace regather::reorder

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <chrono>
 #include <cmath>
 #include <numeric>
 
+#include "replay/student.h"
 #include "replay/walk_lines.h"
 #include "replay/walk_run.h"
 #include "trace/error.h"
@@ -42,18 +42,6 @@ std::vector<std::uint64_t> chosen(std::uint64_t count, std::uint64_t below, std:
 }
 
 }  // namespace
-
-double student_quantile_95(std::uint64_t degrees_of_freedom) {
-    // Two-sided 5 % points, as in any table of the t distribution.
-    static constexpr std::array<double, 31> table{0,     12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365,
-                                                  2.306, 2.262,  2.228, 2.201, 2.179, 2.160, 2.145, 2.131,
-                                                  2.120, 2.110,  2.101, 2.093, 2.086, 2.080, 2.074, 2.069,
-                                                  2.064, 2.060,  2.056, 2.052, 2.048, 2.045, 2.042};
-    if (degrees_of_freedom < table.size()) return table[degrees_of_freedom];
-    // Expansion in 1/n about the normal quantile (Abramowitz & Stegun 26.7.5).
-    const double z = 1.959964, n = static_cast<double>(degrees_of_freedom);
-    return z + (z * z * z + z) / (4 * n) + (5 * std::pow(z, 5) + 16 * z * z * z + 3 * z) / (96 * n * n);
-}
 
 LineUse count_line_use(const WalkStore& walks, const HeapLayout& layout, std::span<const CacheConfig> caches,
                        const QueriesDone& progress) {

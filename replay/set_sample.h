@@ -60,7 +60,4 @@ private:
     std::vector<LineSize> sizes_;
 };
 
-/// The two-sided 95 % quantile of Student's t distribution.
-double student_quantile_95(std::uint64_t degrees_of_freedom);
-
 }  // namespace regather::replay

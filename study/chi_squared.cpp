@@ -1,30 +1,13 @@
 #include "study/chi_squared.h"
 
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <cstddef>
 
 namespace regather::study {
 
 double chi_squared_tail(double chi_squared, double degrees) {
-    const double a = degrees / 2, x = chi_squared / 2;
-    if (!(x > 0)) return 1;
-    const double front = std::exp(-x + a * std::log(x) - std::lgamma(a));
-    if (x < a + 1) {
-        double term = 1 / a, sum = term;
-        for (double n = a + 1; term > sum * 1e-16; ++n) sum += term *= x / n;
-        return 1 - sum * front;
-    }
-    double b = x + 1 - a, c = 1e300, d = 1 / b, fraction = d;  // Lentz
-    for (int i = 1; i < 10'000; ++i) {
-        const double numerator = -i * (i - a);
-        b += 2;
-        d = 1 / (numerator * d + b);
-        c = b + numerator / c;
-        const double factor = c * d;
-        fraction *= factor;
-        if (std::fabs(factor - 1) < 1e-15) break;
-    }
-    return front * fraction;
+    return chi_squared > 0 ? boost::math::gamma_q(degrees / 2, chi_squared / 2) : 1;
 }
 
 double chi_squared_p(std::span<const double> observed, std::span<const double> expected) {

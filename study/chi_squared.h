@@ -4,9 +4,7 @@
 
 namespace regather::study {
 
-/// Chance of a chi-squared of at least this with so many degrees of freedom: the regularised incomplete gamma
-/// function Q(degrees / 2, chi_squared / 2), by series or continued fraction (Press et al., Numerical
-/// Recipes, section 6.2).
+/// Chance of a chi-squared of at least this with so many degrees of freedom.
 double chi_squared_tail(double chi_squared, double degrees);
 
 /// p-value of `observed`; cells that expect fewer than 5 are put together. Both sum to the same total. 0 for

@@ -115,7 +115,7 @@ Convergence::Convergence(const scenes::Scene& scene, Truth truth, const Converge
     interior_ =
         interior(scene, capture::RayCaster(scene), config.width, config.height, config_.interior_radius);
     for (std::size_t i = 0; i < interior_.size(); ++i) interior_[i] &= counted_[i];
-    reference_rmse_ = std::sqrt(moments({&truth_.mean, 1}, truth_, counted_).reference_variance);
+    reference_rmse_ = std::sqrt(error_parts({&truth_.mean, 1}, truth_, counted_).reference_variance);
 }
 
 double Convergence::mean_radiance() const {
@@ -199,7 +199,7 @@ Measured Convergence::measure(const Setting& setting, const std::function<void(s
     row.mean_radiance = mean_radiance();
     row.reference_rmse = reference_rmse_;
 
-    const Moments all = moments(images, truth_, counted_);
+    const ErrorParts all = error_parts(images, truth_, counted_);
     row.below_reference = all.squared_error <= all.reference_variance;
     row.rmse = std::sqrt(std::max(all.squared_error, all.reference_variance));
     row.variance = all.variance;
@@ -209,7 +209,7 @@ Measured Convergence::measure(const Setting& setting, const std::function<void(s
         row.efficiency = 1 / (*all.variance * *row.total_seconds);
     row.interior_pixels = pixels_in(interior_);
     if (*row.interior_pixels > 0) {
-        const Moments inside = moments(images, truth_, interior_);
+        const ErrorParts inside = error_parts(images, truth_, interior_);
         row.interior_variance = inside.variance;
         row.interior_bias_squared = inside.bias_squared;
         row.interior_bias_squared_stderr = inside.bias_squared_stderr;

@@ -11,8 +11,8 @@
 #include "capture/capture.h"
 #include "capture/reference.h"
 #include "results/convergence_row.h"
+#include "study/error_parts.h"
 #include "study/ladder.h"
-#include "study/moments.h"
 
 namespace regather::study {
 

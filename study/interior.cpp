@@ -75,16 +75,4 @@ std::vector<std::uint8_t> interior(const scenes::Scene& scene, const capture::Ra
     return mask;
 }
 
-double photon_area(const scenes::Scene& scene) {
-    double sum = 0;
-    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
-        if (!holds_photons(scene, t)) continue;
-        const auto& corner = scene.triangles[t];
-        const Vec3 a = scene.vertices[corner[0]], b = scene.vertices[corner[1]],
-                   c = scene.vertices[corner[2]];
-        sum += 0.5 * static_cast<double>(length(cross(b - a, c - a)));
-    }
-    return sum;
-}
-
 }  // namespace regather::study

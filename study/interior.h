@@ -14,7 +14,4 @@ namespace regather::study {
 std::vector<std::uint8_t> interior(const scenes::Scene& scene, const capture::RayCaster& caster,
                                    std::uint32_t width, std::uint32_t height, double radius);
 
-/// Surface that photons can lie on [m^2]: diffuse and glossy triangles.
-double photon_area(const scenes::Scene& scene);
-
 }  // namespace regather::study

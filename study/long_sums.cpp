@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "capture/path_tracer.h"
+#include "capture/moments.h"
 #include "study/case.h"
 #include "study/compensated.h"
 
@@ -55,9 +55,9 @@ struct CompensatedDouble {
 };
 /// What a pixel of the path tracer does: mean and spread, sample by sample.
 struct RunningMean {
-    capture::Moments moments;
+    capture::MomentsOf<1> moments;
     std::uint64_t count = 0;
-    void add(float x) { moments.add({double{x}, double{x}, double{x}}, ++count); }
+    void add(float x) { moments.add({double{x}}, ++count); }
     double value() const { return moments.mean[0] * static_cast<double>(count); }
 };
 

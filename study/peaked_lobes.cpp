@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "capture/bsdf.h"
+#include "capture/moments.h"
 #include "study/case.h"
 #include "study/half_vector.h"
 
@@ -91,18 +92,16 @@ Case weight_mean(float exponent, double degrees) {
                     },
                     none);
                 const int samples = effort == Effort::quick ? 40'000 : 1'000'000;
-                double sum = 0, squares = 0;
+                capture::MomentsOf<1> reflected;
                 for (int i = 0; i < samples; ++i) {
                     Sampler sampler(43, capture::Stream::photon, static_cast<std::uint64_t>(i));
                     const capture::Scatter next =
                         capture::scatter(lobe.material(), {0, 0, 1}, lobe.incoming(), sampler);
                     const double weight = next.absorbed ? 0 : double{next.weight.x};
-                    sum += weight;
-                    squares += weight * weight;
+                    reflected.add({weight}, static_cast<std::uint64_t>(i) + 1);
                 }
-                const double mean = sum / samples,
-                             variance = std::max(0.0, squares / samples - mean * mean) / samples;
-                return Reading{std::fabs(mean - albedo) / albedo, 4.5 * std::sqrt(variance) / albedo + 1e-3};
+                const double error = std::sqrt(reflected.variance(0, samples));
+                return sampled(std::fabs(reflected.mean[0] - albedo) / albedo, 1e-3, error / albedo, 0.06);
             }};
 }
 

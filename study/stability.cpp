@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <stdexcept>
 
 #include "trace/error.h"
 
@@ -27,6 +28,15 @@ constexpr CaseGroup groups[] = {
 };
 
 }  // namespace
+
+Reading sampled(double error, double bias, double standard_error, double most) {
+    const double allowed = bias + 4.5 * standard_error;
+    if (!(allowed <= most))
+        throw std::runtime_error(fmt::format(
+            "the sample scatters too much: an error of {:.2g} would be allowed, at most {:.2g} may", allowed,
+            most));
+    return {error, allowed};
+}
 
 std::span<const CaseGroup> case_groups() {
     return groups;

@@ -84,10 +84,54 @@ TEST_F(AddressTraceTest, DinRecordsAreWordsOfFourBytes) {
                             ByteAccess{top - 3, 4, Access::write}));
 }
 
-TEST_F(AddressTraceTest, DinTextMayLackTheLastLineEndOrHaveCarriageReturns) {
-    EXPECT_THAT(read({text("0 8\r\n1 10\r\n2 c")}),
-                ElementsAre(ByteAccess{8, 4, Access::read}, ByteAccess{16, 4, Access::write},
-                            ByteAccess{12, 4, Access::read}));
+TEST_F(AddressTraceTest, DinLinesEndWithLineFeedCarriageReturnOrBothAndBlankOnesAreNone) {
+    const auto expected = ElementsAre(ByteAccess{8, 4, Access::read}, ByteAccess{16, 4, Access::write},
+                                      ByteAccess{12, 4, Access::read});
+    for (const char* content : {"0 8\n1 10\n2 c", "0 8\r1 10\r2 c\r", "0 8\r\n1 10\r\n2 c\r\n",
+                                "0 8\r1 10\n2 c\r\n", "\n\r\n0 8 \t\r\r\n \n1 10\n\r2 c\n\n \t \r"})
+        EXPECT_THAT(read({text(content)}), expected) << content;
+    // A pair is one end, and a blank line counts where a line is named.
+    EXPECT_THAT(refusal({text("0 8\r\n\r\n\r9 0\r\n")}), HasSubstr("line 4: found label 9"));
+    EXPECT_THAT(refusal({text("\r\n \r\n")}), HasSubstr("line 2: found blank lines only"));
+}
+
+/// The two characters of one line end on both sides of the buffer's, wherever in the line the buffer ends.
+TEST_F(AddressTraceTest, ALineEndMayLieOnTheEdgeOfABuffer) {
+    for (const char* end : {"\r", "\r\n"})
+        for (const unsigned shift : {0u, 1u, 2u, 3u, 4u, 5u}) {
+            std::string content = std::string("0 ") + std::string(shift, '0') + "0" + end;
+            unsigned lines = 1;
+            while (content.size() < (1u << 20) + 100) {
+                content += "1 4";
+                content += end;
+                ++lines;
+            }
+            EXPECT_EQ(read({text(content)}).size(), lines) << shift;
+            EXPECT_THAT(refusal({text(content + "7 4")}),
+                        HasSubstr("line " + std::to_string(lines + 1) + ":"));
+        }
+}
+
+TEST_F(AddressTraceTest, WhatStandsBehindAnAddressIsSaidOnce) {
+    const auto notes = [&](const std::string& content) {
+        AddressTrace trace({text(content)});
+        while (!trace.next().empty()) {
+        }
+        std::vector<std::string> lines = trace.notes();
+        for (std::string& line : lines) line = line.substr(line.find("trace.din"));
+        return lines;
+    };
+    EXPECT_THAT(notes("0 8 \t\n1 10\r\n"), testing::IsEmpty());
+    EXPECT_THAT(notes("0 8\n1 10 4 \x1b[2J\r\n"),
+                ElementsAre("trace.din: line 2: \"4 \\x1b[2J\" behind the address is not read"));
+    EXPECT_THAT(
+        notes("0 8 a\n1 10 b\n"),
+        ElementsAre(
+            "trace.din: line 1: \"a\" behind the address is not read, nor what 1 other line has there"));
+    EXPECT_THAT(
+        notes("0 8\n0 8 a\n1 10 b\n1 10 b\n"),
+        ElementsAre(
+            "trace.din: line 2: \"a\" behind the address is not read, nor what 2 other lines have there"));
 }
 
 TEST_F(AddressTraceTest, DinTextLongerThanABufferKeepsItsOrder) {
@@ -116,15 +160,16 @@ TEST_F(AddressTraceTest, DamagedDinTextIsRefusedWithTheLine) {
     EXPECT_EQ(refusal({text("0 0\n3 10\n")}),
               "trace.din: line 2: found label 3, expected 0 (read), 1 (write) or 2 (instruction)");
     EXPECT_THAT(refusal({text("0 0\n0 4\n0\n")}), HasSubstr("line 3: found no address"));
-    EXPECT_THAT(refusal({text("0 0\n\n0 4\n")}), HasSubstr("line 2: found no label"));
-    EXPECT_THAT(refusal({text("# header\n0 4\n")}), HasSubstr("line 1: found label '#', expected a label"));
-    EXPECT_THAT(refusal({text("0 12g4\n")}), HasSubstr("line 1: found address '12g4', expected"));
-    EXPECT_THAT(refusal({text("0 0x\n")}), HasSubstr("line 1: found address '0x'"));
-    EXPECT_THAT(refusal({text("r 1000\n")}), HasSubstr("line 1: found label 'r'"));
+    EXPECT_THAT(refusal({text("0 0\n\n0 4\n \t\nr 8")}), HasSubstr("line 5: found label \"r\""));
+    EXPECT_THAT(refusal({text("# header\n0 4\n")}), HasSubstr("line 1: found label \"#\", expected a label"));
+    EXPECT_THAT(refusal({text("0 12g4\n")}), HasSubstr("line 1: found address \"12g4\", expected"));
+    EXPECT_THAT(refusal({text("0 0x\n")}), HasSubstr("line 1: found address \"0x\""));
+    EXPECT_THAT(refusal({text("r 1000\n")}), HasSubstr("line 1: found label \"r\""));
     EXPECT_THAT(refusal({text("0 0\n0 10000000000000000\n")}),
-                HasSubstr("line 2: found address '10000000000000000'"));
-    EXPECT_THAT(refusal({text("0 -4\n")}), HasSubstr("line 1: found address '-4'"));
-    EXPECT_THAT(refusal({text(std::string("\0\x01\x02", 3))}), HasSubstr("line 1: found label '...'"));
+                HasSubstr("line 2: found address \"10000000000000000\""));
+    EXPECT_THAT(refusal({text("0 -4\n")}), HasSubstr("line 1: found address \"-4\""));
+    EXPECT_THAT(refusal({text(std::string("\0\x01\x02", 3))}),
+                HasSubstr("line 1: found label \"\\x00\\x01\\x02\""));
 }
 
 TEST_F(AddressTraceTest, EmptyAndMissingFilesAreRefused) {

@@ -32,26 +32,26 @@ TEST(AttributedCache, CountsAreThoseDrawnAfterEveryAccess) {
     const Step steps[] = {
         // bytes       by    total                     set 0     set 1   fully associative   bytes used of the
         // lines
-        {{0, 4, read}, a, {1, 1, 1, 0, 0, 0, 0}},  // 0               0                   0: 0-3
-        {{4, 4, read}, a, {2, 1, 1, 0, 0, 0, 0}},  // 0               0                   0: 0-7
+        {{0, 4, read}, a, {{1, 0, 0}, 1, 1, 0, 0}},  // 0               0                   0: 0-3
+        {{4, 4, read}, a, {{1, 0, 0}, 2, 1, 0, 0}},  // 0               0                   0: 0-7
         {{14, 4, read},
          b,
-         {4, 2, 2, 0, 0, 0, 0}},  // 0         1     1 0                 0: 0-7 14-15, 1: 0-1
-        {{32, 4, write}, b, {5, 3, 3, 0, 0, 0, 0}},    // 2* 0      1     2 1 0               2: 0-3
-        {{64, 1, read}, a, {6, 4, 4, 0, 0, 0, 10}},    // 4 2*      1     4 2 1 0             4: 0; 0 had 10
-        {{0, 16, read}, a, {7, 5, 4, 0, 1, 1, 14}},    // 0 4       1     0 4 2 1             0: 0-15; 2 had 4
-        {{48, 1, read}, a, {8, 6, 5, 0, 1, 1, 14}},    // 0 4       3 1   3 0 4 2             3: 0
-        {{80, 1, read}, a, {9, 7, 6, 0, 1, 1, 16}},    // 0 4       5 3   5 3 0 4             5: 0; 1 had 2
-        {{32, 1, read}, b, {10, 8, 6, 1, 1, 1, 17}},   // 2 0       5 3   2 5 3 0             2: 0; 4 had 1
-        {{40, 4, write}, a, {11, 8, 6, 1, 1, 1, 17}},  // 2* 0      5 3   2 5 3 0             2: 0 8-11
+         {{2, 0, 0}, 4, 2, 0, 0}},  // 0         1     1 0                 0: 0-7 14-15, 1: 0-1
+        {{32, 4, write}, b, {{3, 0, 0}, 5, 3, 0, 0}},  // 2* 0      1     2 1 0               2: 0-3
+        {{64, 1, read}, a, {{4, 0, 0}, 6, 4, 0, 10}},  // 4 2*      1     4 2 1 0             4: 0; 0 had 10
+        {{0, 16, read}, a, {{4, 0, 1}, 7, 5, 1, 14}},  // 0 4       1     0 4 2 1             0: 0-15; 2 had 4
+        {{48, 1, read}, a, {{5, 0, 1}, 8, 6, 1, 14}},  // 0 4       3 1   3 0 4 2             3: 0
+        {{80, 1, read}, a, {{6, 0, 1}, 9, 7, 1, 16}},  // 0 4       5 3   5 3 0 4             5: 0; 1 had 2
+        {{32, 1, read}, b, {{6, 1, 1}, 10, 8, 1, 17}},   // 2 0       5 3   2 5 3 0             2: 0; 4 had 1
+        {{40, 4, write}, a, {{6, 1, 1}, 11, 8, 1, 17}},  // 2* 0      5 3   2 5 3 0             2: 0 8-11
     };
     for (const Step& step : steps) {
         cache.access(step.access, step.by);
         EXPECT_EQ(cache.total(), step.total) << "after access of " << step.access.address;
     }
     cache.flush();  // 0 had 16, 2 had 5, 3 and 5 had 1; 2 was written last by a
-    EXPECT_EQ(cache.stats()[a], (ClassStats{7, 5, 4, 0, 1, 1, 10 + 1 + 16 + 1 + 1}));
-    EXPECT_EQ(cache.stats()[b], (ClassStats{4, 3, 2, 1, 0, 1, 4 + 2 + 5}));
+    EXPECT_EQ(cache.stats()[a], (ClassStats{{4, 0, 1}, 7, 5, 1, 10 + 1 + 16 + 1 + 1}));
+    EXPECT_EQ(cache.stats()[b], (ClassStats{{2, 1, 0}, 4, 3, 1, 4 + 2 + 5}));
     EXPECT_EQ(cache.traffic_bytes(cache.total()), (8 + 2) * 16u);
 }
 
@@ -61,7 +61,7 @@ TEST(AttributedCache, NoBytesTouchNoLineAndTheLastByteOfAllHasOne) {
     EXPECT_EQ(cache.total(), ClassStats{});
     cache.access({~std::uint64_t{0}, 1, read}, a);
     cache.flush();
-    EXPECT_EQ(cache.total(), (ClassStats{1, 1, 1, 0, 0, 0, 1}));
+    EXPECT_EQ(cache.total(), (ClassStats{{1, 0, 0}, 1, 1, 0, 1}));
 }
 
 TEST(AttributedCache, AnImpossibleGeometryIsRefused) {

@@ -105,6 +105,22 @@ TEST(Dram, XorOfTheRowSpreadsRowsThatCollide) {
     }
 }
 
+// 4 banks, 3 ranks, rows of 256 B: banks fill 1 KiB, ranks 3 KiB. Byte 0x1f00 = 7936 is row piece 31: bank 3,
+// the 7th of the banks' rows; 7 = 2 x 3 + 1: row 2 of rank 1. The bank is XORed with 2, and not with 7.
+TEST(Dram, XorTakesTheRowOfTheRankAndNotThatOfAllRanks) {
+    DramConfig config = two_banks();
+    config.banks = 4;
+    config.ranks = 3;
+    config.bank_hash = BankHash::xor_row;
+    const Dram dram(config);
+    EXPECT_EQ(dram.place(0x1f00), (Dram::Place{0, 1, 3 ^ 2, 2}));
+    EXPECT_EQ(dram.place(0x400), (Dram::Place{0, 1, 0, 0}));  // the next rank, its row 0
+    EXPECT_EQ(dram.place(0xc00), (Dram::Place{0, 0, 1, 1}));  // all ranks: row 1
+    config.ranks = 2;
+    EXPECT_EQ(Dram(config).place(0x1f00), (Dram::Place{0, 1, 3 ^ 3, 3}));
+    EXPECT_EQ(Dram(config).place(0x400), (Dram::Place{0, 1, 0, 0}));
+}
+
 TEST(Dram, ReachesTheLastByteOf64Bits) {
     Dram dram(two_banks());
     dram.access(~std::uint64_t{0} - 7, 8, Access::read, region);

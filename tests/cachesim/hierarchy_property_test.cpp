@@ -4,78 +4,12 @@
 
 #include <set>
 
-#include "cachesim/hierarchy.h"
-#include "tests/cachesim/brute_force.h"
+#include "tests/cachesim/any_hierarchy.h"
 
 namespace regather::cachesim {
 namespace {
 
 constexpr auto regions = {trace::Region::photons, trace::Region::reorder_buffer, trace::Region::other};
-
-/// One from the list.
-template <class T>
-T one_of(std::initializer_list<T> list) {
-    return *rc::gen::elementOf(std::vector<T>(list));
-}
-
-PolicyConfig any_cache(std::uint32_t line_bytes, bool lru) {
-    PolicyConfig cache;
-    const std::uint32_t ways = one_of({1u, 2u, 3u, 4u, 8u}), sets = one_of({1u, 2u, 3u, 4u});
-    cache.geometry = {std::uint64_t{ways} * sets * line_bytes, line_bytes, ways};
-    if (lru) return cache;
-    cache.policy = one_of({Policy::lru, Policy::fifo, Policy::srrip, Policy::random});
-    if (ways == 1 || ways == 2 || ways == 4 || ways == 8) cache.policy = one_of({cache.policy, Policy::plru});
-    if (sets != 3) cache.index = one_of({SetIndex::modulo, SetIndex::hashed});
-    return cache;
-}
-
-std::vector<LevelConfig> any_levels(std::size_t count) {
-    const std::uint32_t line = 64, sector = one_of({16u, 32u, 64u});
-    std::vector<LevelConfig> levels(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        LevelConfig& level = levels[i];
-        level.name = std::to_string(i);
-        level.cache = any_cache(line, false);
-        level.sector_bytes = sector;
-        level.victim_lines = one_of({0u, 0u, 1u, 3u});
-        if (i > 0) level.inclusion = one_of({Inclusion::neither, Inclusion::inclusive, Inclusion::exclusive});
-        level.cache.write_miss = one_of({WriteMiss::allocate, WriteMiss::allocate, WriteMiss::no_allocate});
-        level.prefetch = one_of({Prefetch::none, Prefetch::on_miss, Prefetch::tagged, Prefetch::always});
-        if (level.inclusion == Inclusion::exclusive) level.prefetch = Prefetch::none;
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        const bool exclusive = levels[i].inclusion == Inclusion::exclusive ||
-                               (i + 1 < count && levels[i + 1].inclusion == Inclusion::exclusive);
-        if (!exclusive)
-            levels[i].cache.write = one_of({WritePolicy::back, WritePolicy::back, WritePolicy::through});
-    }
-    return levels;
-}
-
-struct Step {
-    ByteAccess access;
-    trace::Region region;
-};
-
-constexpr std::uint64_t lines_asked = 40;
-
-std::vector<Step> any_steps(std::size_t count) {
-    Scatter scatter(*rc::gen::arbitrary<std::uint64_t>());
-    std::vector<Step> steps;
-    while (steps.size() < count) {
-        const std::uint64_t line = scatter.below(3) == 0 ? scatter.below(lines_asked) : scatter.below(8);
-        const std::uint64_t first = scatter.below(60), bytes = 1 + scatter.below(80);
-        steps.push_back({{line * 64 + first, bytes, scatter.below(3) == 0 ? Access::write : Access::read},
-                         static_cast<trace::Region>(scatter.below(trace::region_count))});
-    }
-    return steps;
-}
-
-void run(Hierarchy& hierarchy, const Step& step) {
-    hierarchy.access({&step.access, 1}, step.region);
-}
-
-constexpr DramConfig small_dram{.banks = 4, .row_bytes = 128, .burst_bytes = 16, .channel_bytes = 16};
 
 // ---- known from elsewhere ----
 

@@ -33,10 +33,16 @@ std::vector<Touch> touches_of(const std::string& letters) {
     return touches;
 }
 
+std::vector<std::uint8_t> access_all(OptCache& cache, const OptStream& stream) {
+    std::vector<std::uint8_t> missed(stream.size());
+    cache.access(missed);
+    return missed;
+}
+
 PolicyStats stats_of_opt(const PolicyConfig& config, std::span<const Touch> touches) {
     const OptStream stream = stream_of(touches);
     OptCache cache(config, stream);
-    cache.access_rest();
+    access_all(cache, stream);
     cache.flush();
     return cache.total();
 }
@@ -49,10 +55,8 @@ std::string hits_and_misses(const PolicyConfig& config, const std::string& lette
     const std::vector<Touch> touches = touches_of(letters);
     const OptStream stream = stream_of(touches);
     OptCache cache(config, stream);
-    std::vector<std::uint8_t> missed(touches.size());
-    cache.access(missed);
     std::string text;
-    for (const std::uint8_t miss : missed) text += miss ? 'm' : 'h';
+    for (const std::uint8_t miss : access_all(cache, stream)) text += miss ? 'm' : 'h';
     return text;
 }
 
@@ -75,7 +79,7 @@ TEST(OptCache, AmongLinesNeverUsedAgainTheSmallestGoes) {
         const std::vector<Touch> touches = touches_of(letters);
         const OptStream stream = stream_of(touches);
         OptCache cache(one_set(2), stream);
-        cache.access_rest();
+        access_all(cache, stream);
         return cache.total().writebacks;
     };
     EXPECT_EQ(written_back("aBC"), 1u);

@@ -30,10 +30,11 @@ public:
             cache_.access(line, write ? Access::write : Access::read, Region::photons, 4);
         gone = evicted ? name(evicted->line) : '-';
         std::string text = hit ? "h " : "m ";
-        for (const Line held : cache_.set_of(line)) {
-            text += name(held);
-            if (cache_.held(held)->dirty) text += '*';
-        }
+        for (std::size_t way = 0; way < cache_.config().ways(); ++way)
+            if (const auto held = cache_.at(way)) {
+                text += name(held->line);
+                if (held->dirty) text += '*';
+            }
         return text;
     }
     static char name(Line line) { return static_cast<char>('A' + static_cast<std::uint64_t>(line)); }
@@ -135,7 +136,7 @@ TEST(PolicyCache, RandomRepeatsWithItsSeedOnly) {
         PolicyCache cache({{8 * 64, 64, 8}, Policy::random, {}, {}, {}, seed});
         std::vector<std::uint64_t> lines;
         for (std::uint64_t line = 0; line < 1000; ++line)
-            if (const auto victim = cache.insert(Line{line}, false, Region::other))
+            if (const auto victim = cache.place(Line{line}, false, Region::other).evicted)
                 lines.push_back(static_cast<std::uint64_t>(victim->line));
         return lines;
     };
@@ -151,12 +152,10 @@ TEST(PolicyCache, RandomTreatsAllWaysAlike) {
     std::uint64_t at_once = 0;
     std::array<std::uint64_t, 8> by_way{};
     for (std::uint64_t line = 0; line < 80'008; ++line) {
-        const std::vector<Line> before = cache.set_of(Line{0});
-        const auto victim = cache.insert(Line{line}, false, Region::other);
+        const auto [way, victim] = cache.place(Line{line}, false, Region::other);
         if (!victim) continue;
         at_once += victim->line == Line{line - 1};
-        ++by_way[static_cast<std::size_t>(std::find(before.begin(), before.end(), victim->line) -
-                                          before.begin())];
+        ++by_way[way];
     }
     // The standard deviation of each count is 94.
     EXPECT_NEAR(static_cast<double>(at_once), 10'000, 400);
@@ -220,7 +219,7 @@ TEST(PolicyCache, CountsAreKeptByRegion) {
     cache.access(Line{0}, Access::write, Region::photons, 4);
     cache.access(Line{0}, Access::write, Region::reorder_buffer, 4);
     EXPECT_EQ(cache.access(Line{1}, Access::read, Region::other, 4).evicted,
-              (Evicted{Line{0}, true, Region::reorder_buffer}));
+              (Resident{Line{0}, true, Region::reorder_buffer}));
     EXPECT_EQ(cache.stats(Region::photons), (PolicyStats{1, 1, 1, 0, 0, 0}));
     EXPECT_EQ(cache.stats(Region::reorder_buffer), (PolicyStats{1, 0, 0, 1, 0, 0}));
     EXPECT_EQ(cache.stats(Region::other), (PolicyStats{1, 1, 1, 0, 0, 0}));
@@ -236,18 +235,15 @@ INSTANTIATE_TEST_SUITE_P(Policies, Steps,
 
 TEST_P(Steps, CountNothing) {
     PolicyCache cache({{2 * 64, 64, 2}, GetParam()});
-    EXPECT_FALSE(cache.touch(Line{5}, Access::write, Region::other));
-    EXPECT_FALSE(cache.holds(Line{5}));
-    EXPECT_EQ(cache.insert(Line{5}, false, Region::photons), std::nullopt);
-    EXPECT_EQ(cache.held(Line{5}), (Held{false, Region::photons}));
-    EXPECT_TRUE(cache.touch(Line{5}, Access::read, Region::other));
-    EXPECT_EQ(cache.held(Line{5}), (Held{false, Region::photons}));
-    EXPECT_TRUE(cache.touch(Line{5}, Access::write, Region::other));
-    EXPECT_EQ(cache.held(Line{5}), (Held{true, Region::other}));
-    EXPECT_TRUE(cache.set_dirty(Line{5}, false, Region::photons));
-    EXPECT_EQ(cache.remove(Line{5}), (Held{false, Region::photons}));
-    EXPECT_EQ(cache.remove(Line{5}), std::nullopt);
-    EXPECT_FALSE(cache.set_dirty(Line{5}, true, Region::photons));
+    EXPECT_EQ(cache.slot(Line{5}), PolicyCache::nowhere);
+    const auto [slot, evicted] = cache.place(Line{5}, true, Region::photons);
+    EXPECT_EQ(evicted, std::nullopt);
+    EXPECT_EQ(cache.slot(Line{5}), slot);
+    cache.use_at(slot);
+    EXPECT_EQ(cache.at(slot), (Resident{Line{5}, true, Region::photons}));
+    cache.remove_at(slot);
+    EXPECT_EQ(cache.slot(Line{5}), PolicyCache::nowhere);
+    EXPECT_EQ(cache.at(slot), std::nullopt);
     EXPECT_EQ(cache.total(), PolicyStats{});
 }
 
@@ -255,19 +251,26 @@ TEST_P(Steps, CountNothing) {
 TEST_P(Steps, WhatIsRemovedLeavesRoom) {
     for (const std::uint32_t ways : {4u, 64u}) {
         PolicyCache cache({{std::uint64_t{2} * ways * 64, 64, ways}, GetParam()});
+        const auto holds = [&](std::uint64_t line) { return cache.slot(Line{line}) != PolicyCache::nowhere; };
         for (std::uint64_t line = 0; line < 2 * ways; ++line)
-            EXPECT_EQ(cache.insert(Line{line}, line % 4 == 0, Region::other), std::nullopt);
-        EXPECT_EQ(cache.remove(Line{4}), (Held{true, Region::other}));
-        EXPECT_FALSE(cache.holds(Line{4}));
-        EXPECT_EQ(cache.insert(Line{1000}, false, Region::other), std::nullopt);  // into the same way
-        EXPECT_EQ(cache.set_of(Line{0})[2], Line{1000});
-        const auto foretold = cache.victim_for(Line{1002});
-        ASSERT_TRUE(foretold);
-        EXPECT_EQ(cache.insert(Line{1002}, false, Region::other), foretold);
-        EXPECT_FALSE(cache.holds(foretold->line));
-        EXPECT_EQ(cache.drain().size(), 2 * ways);
-        EXPECT_FALSE(cache.holds(Line{1002}));
-        EXPECT_EQ(cache.insert(Line{1002}, false, Region::other), std::nullopt);
+            EXPECT_EQ(cache.place(Line{line}, line % 4 == 0, Region::other).evicted, std::nullopt);
+        const std::size_t third = cache.slot(Line{4});
+        EXPECT_EQ(third, 2u);
+        cache.remove_at(third);
+        EXPECT_FALSE(holds(4));
+        EXPECT_EQ(cache.place(Line{1000}, false, Region::other).slot, third);  // into the same way
+        const auto [slot, evicted] = cache.place(Line{1002}, true, Region::photons);
+        ASSERT_TRUE(evicted);
+        EXPECT_FALSE(holds(static_cast<std::uint64_t>(evicted->line)));
+        EXPECT_EQ(evicted->dirty, static_cast<std::uint64_t>(evicted->line) % 4 == 0 &&
+                                      static_cast<std::uint64_t>(evicted->line) < 2 * ways);
+        EXPECT_EQ(cache.at(slot), (Resident{Line{1002}, true, Region::photons}));
+        for (std::uint64_t line = 0; line < 2 * ways; ++line)
+            EXPECT_EQ(holds(line), line != 4 && Line{line} != evicted->line) << line;
+        cache.clear();
+        for (std::size_t any = 0; any < 2 * ways; ++any) EXPECT_EQ(cache.at(any), std::nullopt);
+        EXPECT_FALSE(holds(1002));
+        EXPECT_EQ(cache.place(Line{1002}, false, Region::other).slot, 0u);
     }
 }
 

@@ -39,6 +39,24 @@ TEST(PhotonPass, EveryFlightEndsSomewhere) {
     }
 }
 
+/// Paths of ten photons on average: most maps end in the middle of one, whose last photons are not stored.
+TEST(PhotonPass, PhotonsBeyondTheAskedNumberAreCutOff) {
+    const scenes::Scene scene = closed_box(0.9);
+    double cut_off = 0;
+    for (std::uint32_t count = 1; count <= 30; ++count) {
+        const PhotonPass pass = trace(scene, count);
+        const PhotonTally& tally = pass.tally;
+        // A photon's power is kept to 1 / 256, up or down.
+        EXPECT_NEAR(sum_of(pass.photons)[0] / tally.stored[0], 1, 1.0 / 128) << count;
+        for (std::size_t c = 0; c < 3; ++c)
+            EXPECT_NEAR((tally.stored[c] + tally.cut_off[c]) / (tally.emitted[c] + tally.reflected[c]), 1,
+                        1e-6)
+                << count;
+        cut_off += tally.cut_off[0] / tally.stored[0];
+    }
+    EXPECT_GT(cut_off, 1);
+}
+
 TEST(PhotonPass, TheEmittedPowerIsTheLights) {
     const PhotonTally tally = trace(closed_box(0.5), 20000).tally;
     EXPECT_NEAR(tally.emitted[0], 3, 1e-4);

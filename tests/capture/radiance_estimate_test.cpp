@@ -89,6 +89,29 @@ TEST(RadianceEstimate, DoesNotUsePhotonsOfSurfacesThatFaceElsewhereUnlessItIsTol
     EXPECT_GT(estimate(heap, false), 1.5 * estimate(heap, true));
 }
 
+/// The paper, section 6.2; a stored normal is within 2 degrees of the surface's.
+TEST(RadianceEstimate, UsesPhotonsOfSurfacesThatFaceUpTo60DegreesElsewhere) {
+    const Material white{.name = "white", .diffuse = {1, 1, 1}};
+    const auto estimate = [&](double degrees, double around) {
+        const double polar = degrees * std::numbers::pi / 180;
+        const std::vector<trace::Photon> heap = spatial::left_balanced(even_floor(
+            50, 1, 1,
+            {static_cast<float>(std::sin(polar) * std::cos(around)),
+             static_cast<float>(std::sin(polar) * std::sin(around)), static_cast<float>(std::cos(polar))}));
+        spatial::NearestSet found(100, 0.4f);
+        spatial::nearest(spatial::PhotonKd(heap), {0, 0, 0}, found);
+        return reflected_radiance(spatial::PhotonKd(heap), found, {&white, {0, 0, 1}, {0, 0, 1}},
+                                  Filter::none, true)
+            .x;
+    };
+    const float whole = estimate(0, 0);
+    ASSERT_GT(whole, 0);
+    for (const double around : {0.1, 1.7, 3.3, 5.0}) {
+        for (const double degrees : {30, 50, 57}) EXPECT_EQ(estimate(degrees, around), whole) << degrees;
+        for (const double degrees : {63, 75, 89, 120}) EXPECT_EQ(estimate(degrees, around), 0) << degrees;
+    }
+}
+
 TEST(RadianceEstimate, OfPhotonsThatDoNotTellTheirSurfaceUsesThem) {
     const Material white{.name = "white", .diffuse = {1, 1, 1}};
     std::vector<trace::Photon> photons = even_floor(100, 1, 1);

@@ -102,6 +102,12 @@ TEST(Cachesim, AnAddressTraceBecomesATable) {
         "policy,size_bytes,line_bytes,ways,accesses,hits,misses,compulsory,capacity,conflict,writebacks,"
         "writes_through,traffic_bytes\n"
         "lru,128,64,1,4,1,3,3,0,0,0,0,192\nlru,128,64,full,4,1,3,3,0,0,0,0,192\n");
+    write(scratch / "notes.din", "0 0\r1 40\r0 4 x\r");
+    const Outcome noted = regather(
+        {"cachesim", (scratch / "notes.din").string(), "--size", "1K", "--line", "64", "--ways", "1"});
+    EXPECT_NE(noted.out.find("lru,1024,64,1,3,1,2,"), std::string::npos) << noted.out;
+    EXPECT_NE(noted.err.find("notes.din: line 3: \"x\" behind the address is not read\n"), std::string::npos)
+        << noted.err;
     write(scratch / "program.din", "0 0\n0 zero\n");
     expect_refused(
         bad_data,

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "reorder/catalogue.h"
+#include "reorder/tiling.h"
 #include "tests/reorder/workload.h"
 
 namespace regather::reorder {
@@ -12,6 +13,34 @@ using Numbers = std::vector<std::uint32_t>;
 
 Numbers order_by(std::string_view spec, const Queries& queries) {
     return order(*make_ordering(spec), queries.workload()).permutation;
+}
+
+TEST(Tiling, WithoutAnEdgeAnImageOfAnyShapeIsOneTile) {
+    for (const auto& [width, height] : {std::pair{3u, 8u}, {8u, 3u}, {5u, 5u}, {1u, 9u}}) {
+        const Queries image = one_per_pixel(width, height);
+        const Tiling whole(image.workload(), {});
+        EXPECT_EQ(whole.tiles(), 1u) << width;
+        EXPECT_EQ(whole.pixels_in_tile(), width * height);
+        for (std::uint32_t pixel = 0; pixel < width * height; ++pixel) {
+            EXPECT_EQ(whole.tile_of(pixel), 0u) << width << " " << pixel;
+            EXPECT_EQ(whole.column_in_tile(pixel), pixel % width);
+            EXPECT_EQ(whole.row_in_tile(pixel), pixel / width);
+        }
+    }
+}
+
+// 3 x 8 pixels in tiles of 2: two columns and four rows of them.
+TEST(Tiling, CountsTheTilesOfAPortrait) {
+    const Queries image = one_per_pixel(3, 8);
+    const Tiling tiles(image.workload(), 2);
+    EXPECT_EQ(tiles.tiles(), 8u);
+    EXPECT_EQ(tiles.pixels_in_tile(), 4u);
+    EXPECT_EQ(tiles.tile_of(2), 1u);
+    EXPECT_EQ(tiles.tile_of(3), 0u);
+    EXPECT_EQ(tiles.tile_of(6), 2u);
+    EXPECT_EQ(tiles.tile_of(23), 7u);
+    EXPECT_EQ(tiles.row_in_tile(23), 1u);
+    EXPECT_EQ(tiles.column_in_tile(23), 0u);
 }
 
 //  0  1 |  2  3

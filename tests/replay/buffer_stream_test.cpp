@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "reorder/catalogue.h"
+#include "tests/reorder/buffer_bytes.h"
 #include "tests/reorder/workload.h"
 
 namespace regather::cachesim {
@@ -171,8 +172,8 @@ TEST(BufferStream, BytesAreThoseThatEveryOrderingCountsAndRecordsAreReadWhereThe
                     }
                 }
             }
-            RC_ASSERT(written == use.written_bytes());
-            RC_ASSERT(read == use.read_bytes());
+            RC_ASSERT(written == written_bytes(use));
+            RC_ASSERT(read == read_bytes(use));
             RC_ASSERT(written + read == ordered.cost.reorder_bytes);
         }
     }));

@@ -72,10 +72,10 @@ TEST(Detail, FourPhotonsOn64ByteLinesAreThoseDrawnByHand) {
     ASSERT_EQ(detail.parts.size(), 4u);
     for (std::uint32_t depth = 0; depth < 3; ++depth) EXPECT_EQ(detail.parts[depth].depth, depth);
     EXPECT_EQ(detail.parts[0].stats,
-              (ClassStats{1, 1, 1, 0, 0, 0, 64}));  // line 0: three nodes and four bytes
+              (ClassStats{{1, 0, 0}, 1, 1, 0, 64}));  // line 0: three nodes and four bytes
     EXPECT_EQ(detail.parts[0].traffic_bytes, 64u);
-    EXPECT_EQ(detail.parts[1].stats, (ClassStats{2, 0, 0, 0, 0, 0, 0}));
-    EXPECT_EQ(detail.parts[2].stats, (ClassStats{2, 1, 1, 0, 0, 0, 16}));
+    EXPECT_EQ(detail.parts[1].stats, (ClassStats{{0, 0, 0}, 2, 0, 0, 0}));
+    EXPECT_EQ(detail.parts[2].stats, (ClassStats{{1, 0, 0}, 2, 1, 0, 16}));
     EXPECT_EQ(detail.parts[2].traffic_bytes, 64u);
     EXPECT_EQ(detail.parts[3].region, Region::reorder_buffer);
     EXPECT_EQ(detail.parts[3].stats, ClassStats{});

@@ -12,6 +12,7 @@
 #include <set>
 #include <tuple>
 
+#include "replay/student.h"
 #include "tests/replay/traced.h"
 #include "trace/error.h"
 
@@ -22,27 +23,29 @@ using cachesim::CacheConfig;
 using testing::HasSubstr;
 
 Replayed sampled(const Searched& searched, std::span<const std::uint32_t> order,
-                 const std::vector<CacheConfig>& caches, const Sampling& sampling) {
+                 const std::vector<CacheConfig>& caches, const Sampling& sampling,
+                 const HeapLayout& layout = {}) {
     const WalkStore walks = searched.walks();
-    return SetSample(walks, {}, caches, sampling, count_line_use(walks, {}, caches)).replay(order);
+    return SetSample(walks, layout, caches, sampling, count_line_use(walks, layout, caches)).replay(order);
 }
 
 /// Misses of one cache by the class of the line, from lists.
 std::vector<double> misses_by_class(const Searched& searched, std::span<const std::uint32_t> order,
-                                    const CacheConfig& cache, std::uint64_t classes) {
+                                    const CacheConfig& cache, std::uint64_t classes,
+                                    const HeapLayout& layout = {}) {
     std::vector<double> misses(classes);
     ListedLru list(cache.sets(), cache.ways);
-    for (const std::uint64_t line : searched.lines_of(order, cache.line_bytes))
+    for (const std::uint64_t line : searched.lines_of(order, cache.line_bytes, layout))
         misses[line % classes] += list.misses(line) ? 1 : 0;
     return misses;
 }
 
 /// Walks times lines that they touch, by class, of the lines that at most a tenth of the walks touches.
 std::vector<double> touches_by_class(const Searched& searched, std::uint64_t line_bytes,
-                                     std::uint64_t classes) {
+                                     std::uint64_t classes, const HeapLayout& layout = {}) {
     std::map<std::uint64_t, double> walks;
     for (std::uint32_t q = 0; q < searched.points.size(); ++q) {
-        const std::vector<std::uint64_t> lines = searched.lines_of(q, line_bytes);
+        const std::vector<std::uint64_t> lines = searched.lines_of(q, line_bytes, layout);
         for (const std::uint64_t line : std::set<std::uint64_t>(lines.begin(), lines.end())) ++walks[line];
     }
     std::vector<double> touches(classes);
@@ -104,17 +107,46 @@ TEST(SetSample, AnEstimateIsTheRatioOfTwoOfTheClassesAndEveryClassComesToItsTurn
             EXPECT_EQ(found.traffic_bytes, found.misses * 64);
             EXPECT_EQ(found.accesses, accesses);
             EXPECT_FALSE(found.classes);
-            // 12.706 standard errors, as n - 1 = 1; what was seen to miss is a floor.
+            // 12.706205 standard errors, as n - 1 = 1; what was seen to miss is a floor.
             const double seen_misses = misses[c][pairs[0].first] + misses[c][pairs[0].second];
             const Estimate e = estimate_of_two(misses[c], touches, pairs[0].first, pairs[0].second);
-            EXPECT_NEAR(static_cast<double>(found.error->high), e.misses + 12.706 * e.standard_error, 0.501);
+            EXPECT_NEAR(static_cast<double>(found.error->high), e.misses + 12.706205 * e.standard_error,
+                        0.501);
             EXPECT_NEAR(static_cast<double>(found.error->low),
-                        std::max(seen_misses, e.misses - 12.706 * e.standard_error), 0.501);
+                        std::max(seen_misses, e.misses - 12.706205 * e.standard_error), 0.501);
         }
         EXPECT_EQ(replayed.visited_nodes, searched.recording.visited_nodes);
         EXPECT_EQ(replayed.raw_bytes, 20 * searched.recording.visited_nodes);
     }
     EXPECT_EQ(seen.size(), classes);
+}
+
+/// Gaps between nodes, nodes of several lines, and a first node in the middle of a line.
+TEST(SetSample, AnyLayoutsEstimateIsTheRatioOfTwoOfItsClasses) {
+    const Searched searched(2000, 120, 12);
+    const auto order = shuffled_queries(120, 2);
+    const std::vector<CacheConfig> caches{{16 * 4 * 32, 32, 4}, {32 * 32, 32, 1}};
+    for (const HeapLayout& layout : {HeapLayout{"gaps", 0, 24, 20}, HeapLayout{"hot", 8, 32, 12},
+                                     HeapLayout{"wide", 4100, 80, 75}, HeapLayout{"shared", 72, 20, 33}}) {
+        const std::vector<double> touches = touches_by_class(searched, 32, 16, layout);
+        for (std::uint64_t seed = 0; seed < 10; ++seed) {
+            const Replayed replayed = sampled(searched, order, caches, {8, seed}, layout);
+            for (std::size_t c = 0; c < caches.size(); ++c) {
+                const CacheTraffic& found = replayed.caches[c];
+                const std::vector<double> misses = misses_by_class(searched, order, caches[c], 16, layout);
+                int fitting = 0;
+                for (std::size_t a = 0; a < 16; ++a)
+                    for (std::size_t b = a + 1; b < 16; ++b) {
+                        const Estimate expected = estimate_of_two(misses, touches, a, b);
+                        fitting += std::abs(static_cast<double>(found.misses) - expected.misses) < 0.501 &&
+                                   std::abs(found.error->standard_error - expected.standard_error) <
+                                       1e-9 * (1 + expected.standard_error);
+                    }
+                EXPECT_EQ(fitting, 1) << layout.name << seed;
+                EXPECT_EQ(found.accesses, searched.lines_of(order, 32, layout).size()) << layout.name;
+            }
+        }
+    }
 }
 
 TEST(SetSample, WhenManyWalksTouchEveryLineTheMeanOfTheClassesIsTheEstimate) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "replay/layout.h"
 #include "replay/walk_store.h"
 #include "spatial/nearest.h"
 #include "spatial/recording.h"
@@ -31,27 +32,35 @@ struct Searched {
     WalkStore walks() const {
         return {static_cast<std::uint32_t>(heap.size()), recording.walk_bytes, recording.walks};
     }
-    /// The lines that one search touches, one by one; nodes of 20 bytes.
-    std::vector<std::uint64_t> lines_of(std::uint32_t query, std::uint64_t line_bytes) const {
-        struct Touch {
-            std::vector<std::uint64_t> lines;
-            std::uint64_t line_bytes;
-            void visit(std::uint32_t node) {
-                const std::uint64_t first = node * 20 / line_bytes, last = (node * 20 + 19) / line_bytes;
-                for (std::uint64_t line = first; line <= last; ++line) lines.push_back(line);
-            }
+    /// The nodes that one search visits, from 0.
+    std::vector<std::uint32_t> nodes_of(std::uint32_t query) const {
+        struct Visits {
+            std::vector<std::uint32_t> nodes;
+            void visit(std::uint32_t node) { nodes.push_back(node); }
             void near(bool) {}
             void far(bool) {}
-        } touch{{}, line_bytes};
+        } visits;
         spatial::NearestSet found(k);
-        spatial::nearest(spatial::PhotonKd(heap), points[query], found, touch);
-        return touch.lines;
+        spatial::nearest(spatial::PhotonKd(heap), points[query], found, visits);
+        return visits.nodes;
     }
-    std::vector<std::uint64_t> lines_of(std::span<const std::uint32_t> order,
-                                        std::uint64_t line_bytes) const {
+    /// The lines that one search touches, one by one.
+    std::vector<std::uint64_t> lines_of(std::uint32_t query, std::uint64_t line_bytes,
+                                        const HeapLayout& layout = {}) const {
+        std::vector<std::uint64_t> lines;
+        for (const std::uint64_t node : nodes_of(query)) {
+            const std::uint64_t begin = layout.base + node * layout.stride_bytes,
+                                end = begin + layout.used_bytes;
+            for (std::uint64_t line = begin / line_bytes; line * line_bytes < end; ++line)
+                lines.push_back(line);
+        }
+        return lines;
+    }
+    std::vector<std::uint64_t> lines_of(std::span<const std::uint32_t> order, std::uint64_t line_bytes,
+                                        const HeapLayout& layout = {}) const {
         std::vector<std::uint64_t> all;
         for (const std::uint32_t query : order) {
-            const std::vector<std::uint64_t> lines = lines_of(query, line_bytes);
+            const std::vector<std::uint64_t> lines = lines_of(query, line_bytes, layout);
             all.insert(all.end(), lines.begin(), lines.end());
         }
         return all;

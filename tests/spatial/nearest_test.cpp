@@ -3,15 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-// FLANN's headers are not clean under our warnings.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wunused-parameter"
-#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
-#include <flann/flann.hpp>
-#pragma GCC diagnostic pop
-
+#include "tests/spatial/flann_search.h"
 #include "tests/spatial/photons.h"
 
 namespace regather::spatial {
@@ -63,28 +55,18 @@ class NearestInCloud : public testing::TestWithParam<std::vector<trace::Photon> 
 TEST_P(NearestInCloud, EqualsFlannsExactSearchAndBruteForce) {
     constexpr std::uint32_t k = 100;
     const std::vector<Photon> heap = left_balanced(GetParam()(20000));
-    std::vector<float> points;
-    for (const Photon& p : heap)
-        for (int c = 0; c < 3; ++c) points.push_back(p.position[c]);
-    const flann::Matrix<float> data(points.data(), heap.size(), 3);
-    flann::Index<flann::L2<float>> index(data, flann::KDTreeSingleIndexParams(10));
-    index.buildIndex();
-
+    const FlannSearch flann(heap);
     Numbers numbers(99);
     for (int q = 0; q < 200; ++q) {
         Vec3 point{numbers.uniform(), numbers.uniform(), numbers.uniform()};
         if (q % 2 == 0) point = heap[static_cast<std::size_t>(q) * 50].position;  // on a photon
         const std::vector<Neighbor> ours = search(heap, point, k);
         ASSERT_TRUE(same(ours, brute_force(heap, point, k, infinite)));
-        std::vector<std::vector<std::size_t>> indices;
-        std::vector<std::vector<float>> distances;
-        flann::Matrix<float> query(&point.x, 1, 3);
-        flann::SearchParams exact(flann::FLANN_CHECKS_UNLIMITED, 0, true);
-        index.knnSearch(query, indices, distances, k, exact);
-        ASSERT_EQ(distances[0].size(), ours.size());
+        const std::vector<float> distances2 = flann.nearest_distances2(point, k);
+        ASSERT_EQ(distances2.size(), ours.size());
         // Of photons at equal distance FLANN may name another; the distances agree to rounding.
         for (std::size_t i = 0; i < k; ++i)
-            ASSERT_NEAR(distances[0][i], ours[i].distance2, 1e-6f * ours[i].distance2 + 1e-12f);
+            ASSERT_NEAR(distances2[i], ours[i].distance2, 1e-6f * ours[i].distance2 + 1e-12f);
     }
 }
 std::vector<trace::Photon> uniform_cloud(std::size_t count) {

@@ -4,6 +4,9 @@
 #include <rapidcheck.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
+#include <functional>
+
 #include "spatial/nearest.h"
 #include "spatial/recording.h"
 #include "tests/spatial/photons.h"
@@ -73,6 +76,53 @@ TEST(Walk, EveryTreeSizeDecodes) {
             search.recorder.finish();
             ASSERT_EQ(nodes(decoder, search.recorder.bytes()), search.visited) << count << ' ' << k;
         }
+    }
+}
+
+/// A walk that no search has made: it is drawn, with `chance` on each level that the far child is entered.
+struct DrawnWalk {
+    std::uint32_t photons;
+    std::function<float(int)> chance;
+    Numbers numbers{1};
+    std::vector<std::uint32_t> slots{};
+    WalkRecorder recorder{};
+
+    void draw(std::uint64_t slot, int level) {
+        slots.push_back(static_cast<std::uint32_t>(slot));
+        recorder.visit(0);
+        if (2 * slot > photons) return;
+        const bool upper = numbers.uniform() < 0.5f;
+        const std::uint64_t near = 2 * slot + (upper ? 1 : 0), far = near ^ 1;
+        recorder.near(upper);
+        if (near <= photons) draw(near, level + 1);
+        const bool entered = far <= photons && numbers.uniform() < chance(level);
+        recorder.far(entered);
+        if (entered) draw(far, level + 1);
+    }
+};
+
+/// From 2^28 photons on a descent and the run of far bits behind it do not fit into one word.
+TEST(Walk, TreesOfHundredsOfMillionsOfPhotonsDecode) {
+    const std::vector<std::function<float(int)>> chances{[](int) { return 0.0f; }, [](int) { return 0.05f; },
+                                                         [](int) { return 0.2f; },
+                                                         [](int level) { return level < 2 ? 0.8f : 0.01f; },
+                                                         [](int level) { return level < 20 ? 0.0f : 0.5f; }};
+    for (const std::uint32_t photons : {(1u << 27) + 12345, (1u << 28) - 1, 1u << 28, (1u << 28) + 7,
+                                        (3u << 28) + 5, (1u << 31) + 99, ~0u - 2, ~0u}) {
+        WalkDecoder decoder(photons);
+        DrawnWalk walk{photons, {}};
+        for (const auto& chance : chances)
+            for (int repeat = 0; repeat < 40; ++repeat) {
+                walk.chance = chance;
+                walk.slots.clear();
+                walk.recorder.clear();
+                walk.draw(1, 0);
+                walk.recorder.finish();
+                const auto [fault, slots] = decoder.decode(walk.recorder.bytes());
+                ASSERT_EQ(fault, WalkFault::none) << photons;
+                ASSERT_TRUE(std::equal(slots.begin(), slots.end(), walk.slots.begin(), walk.slots.end()))
+                    << photons;
+            }
     }
 }
 

@@ -15,17 +15,11 @@
 namespace regather::study {
 namespace {
 
-/// Cases that need a full run: in a quick one hardly a photon or a path comes through.
-bool needs_full_run(const std::string& name) {
-    return name.find("keyhole of 0.0001") == 0 || name.find("keyhole of 1e-05") == 0 ||
-           name.find("albedo 0.9999, path") != name.npos || name.find("infinite radiance") != name.npos;
-}
-
 class Group : public testing::TestWithParam<const CaseGroup*> {};
 
 TEST_P(Group, HoldsItsBounds) {
     for (const Case& one : GetParam()->cases()) {
-        if (one.timed || needs_full_run(one.name)) continue;
+        if (one.timed || one.full_only) continue;
         const results::StabilityRow row = run_case(*GetParam(), one, Effort::quick);
         EXPECT_TRUE(row.passed.value())
             << one.name << ": " << one.quantity << " " << row.error.value_or(NAN) << ", allowed "
@@ -80,6 +74,18 @@ TEST(Stability, WhatIsNoNumberHasFailed) {
     const auto row = run_case(group, throwing, Effort::quick);
     EXPECT_FALSE(*row.passed);
     EXPECT_EQ(row.reason, "no memory");
+}
+
+TEST(Stability, ASampleThatScattersTooMuchHasFailedHoweverSmallItsError) {
+    EXPECT_DOUBLE_EQ(sampled(0.02, 0.001, 0.01).allowed, 0.046);
+    EXPECT_DOUBLE_EQ(sampled(0.02, 0.001, 0.01).error, 0.02);
+    EXPECT_THROW(sampled(0, 0, 0.023), std::runtime_error);  // 0.1035 would be allowed
+    EXPECT_THROW(sampled(0, 0, 0.01, 0.04), std::runtime_error);
+    EXPECT_THROW(sampled(0, 0, std::nan("")), std::runtime_error);
+    const Case noisy{"c", "q", "r", [](Effort) { return sampled(0.01, 0, 1); }};
+    const auto row = run_case(case_groups().front(), noisy, Effort::quick);
+    EXPECT_FALSE(*row.passed);
+    EXPECT_THAT(row.reason, testing::HasSubstr("scatters too much"));
 }
 
 // Abramowitz and Stegun, Table 26.8.

@@ -1,4 +1,4 @@
-#include "study/moments.h"
+#include "study/error_parts.h"
 
 #include <cmath>
 
@@ -20,11 +20,11 @@ double mean_of_pairs(const std::vector<std::vector<double>>& products, std::size
 
 }  // namespace
 
-Moments moments(std::span<const capture::Image> images, const Truth& truth,
-                std::span<const std::uint8_t> mask) {
+ErrorParts error_parts(std::span<const capture::Image> images, const Truth& truth,
+                       std::span<const std::uint8_t> mask) {
     const std::size_t count = images.size();
     std::vector<std::vector<double>> products(count, std::vector<double>(count));
-    Moments out;
+    ErrorParts out;
     double values = 0;
     std::vector<double> difference(count);
     for (std::size_t i = 0; i < truth.mean.pixels.size(); ++i) {

@@ -1,4 +1,4 @@
-// study/moments.h -- bias and variance of a renderer apart, from several images of one setting and a
+// study/error_parts.h -- bias and variance of a renderer apart, from several images of one setting and a
 // reference with noise of its own. With Y_m = X_m - R, the inner products <Y_m, Y_n> (means over pixels and
 // channels) of two different images hold bias^2 and the reference's variance, those of an image with itself
 // the variance, too: their differences estimate each without bias. The standard error of bias^2 comes from
@@ -22,7 +22,7 @@ struct Truth {
 };
 
 /// Means over pixels and channels [(W / (m^2 sr))^2].
-struct Moments {
+struct ErrorParts {
     double squared_error = 0;  ///< Of one image against the truth; the reference's variance is taken off.
     double reference_variance = 0;
     std::optional<double> variance, bias_squared;  ///< From two images on.
@@ -31,7 +31,7 @@ struct Moments {
 
 /// Of the pixels where `mask` is not 0; an empty mask takes all. Images are as large as the truth; at least
 /// one, and at least one pixel.
-Moments moments(std::span<const capture::Image> images, const Truth& truth,
-                std::span<const std::uint8_t> mask = {});
+ErrorParts error_parts(std::span<const capture::Image> images, const Truth& truth,
+                       std::span<const std::uint8_t> mask = {});
 
 }  // namespace regather::study

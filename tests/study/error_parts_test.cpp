@@ -1,5 +1,5 @@
 // Bias and variance of images whose bias and variance are known.
-#include "study/moments.h"
+#include "study/error_parts.h"
 
 #include <gtest/gtest.h>
 
@@ -16,12 +16,12 @@ Image flat(float value, std::uint32_t pixels = 4) {
     return {pixels, 1, std::vector<trace::Vec3>(pixels, {value, value, value})};
 }
 
-TEST(Moments, TwoImagesByHand) {
+TEST(ErrorParts, TwoImagesByHand) {
     // Errors 3 and 1 everywhere: mean squared error 5, product 3, variance (3 - 1)^2 / 2 = 2; the reference's
     // variance 0.5 is in the products, not in the variance.
     const Truth truth{flat(1), std::vector<trace::Vec3>(4, {0.5f, 0.5f, 0.5f}), 1};
     const std::vector<Image> images{flat(4), flat(2)};
-    const Moments found = moments(images, truth);
+    const ErrorParts found = error_parts(images, truth);
     EXPECT_DOUBLE_EQ(found.squared_error, 4.5);
     EXPECT_DOUBLE_EQ(*found.variance, 2);
     EXPECT_DOUBLE_EQ(*found.bias_squared, 2.5);
@@ -29,40 +29,40 @@ TEST(Moments, TwoImagesByHand) {
     EXPECT_FALSE(found.bias_squared_stderr);
 }
 
-TEST(Moments, TheJackknifeByHand) {
+TEST(ErrorParts, TheJackknifeByHand) {
     // Errors 1, 2, 3: pairs without the first 6, without the second 3, without the third 2; their mean is 11
     // / 3.
     const Truth truth{flat(0), {}, 1};
     const std::vector<Image> images{flat(1), flat(2), flat(3)};
-    const Moments found = moments(images, truth);
+    const ErrorParts found = error_parts(images, truth);
     EXPECT_NEAR(*found.bias_squared, 11.0 / 3, 1e-12);
     EXPECT_NEAR(*found.variance, 1, 1e-12);
     const double squares = std::pow(6 - 11.0 / 3, 2) + std::pow(3 - 11.0 / 3, 2) + std::pow(2 - 11.0 / 3, 2);
     EXPECT_NEAR(*found.bias_squared_stderr, std::sqrt(squares * 2 / 3), 1e-12);
 }
 
-TEST(Moments, OneImageHasNeither) {
+TEST(ErrorParts, OneImageHasNeither) {
     const std::vector<Image> images{flat(3)};
-    const Moments found = moments(images, {flat(1), {}, 1});
+    const ErrorParts found = error_parts(images, {flat(1), {}, 1});
     EXPECT_DOUBLE_EQ(found.squared_error, 4);
     EXPECT_FALSE(found.variance);
     EXPECT_FALSE(found.bias_squared);
 }
 
-TEST(Moments, OnlyMaskedPixelsCount) {
+TEST(ErrorParts, OnlyMaskedPixelsCount) {
     Image image = flat(0, 2);
     image.pixels[1] = {100, 100, 100};
     const std::vector<Image> images{image, image};
     const std::vector<std::uint8_t> mask{1, 0};
     Truth truth{flat(2, 2), {{1, 1, 1}, {50, 50, 50}}, 1};
-    const Moments found = moments(images, truth, mask);
+    const ErrorParts found = error_parts(images, truth, mask);
     EXPECT_DOUBLE_EQ(found.squared_error, 3);
     EXPECT_DOUBLE_EQ(*found.bias_squared, 3);
     EXPECT_DOUBLE_EQ(*found.variance, 0);
 }
 
 /// Uniform noise of a known variance on images and reference.
-TEST(Moments, EstimatesAreWithoutBiasUnderNoise) {
+TEST(ErrorParts, EstimatesAreWithoutBiasUnderNoise) {
     constexpr std::uint32_t pixels = 64, runs = 400, seeds = 4;
     const double noise = 0.6, reference_noise = 0.3, bias = 0.05;  // widths of uniform distributions
     double variance = 0, bias_squared = 0, squared_error = 0, stderr_squared = 0, spread = 0;
@@ -80,7 +80,7 @@ TEST(Moments, EstimatesAreWithoutBiasUnderNoise) {
         const Truth truth{noisy(reference_noise, 0), std::vector<trace::Vec3>(pixels, {v, v, v}), 1};
         std::vector<Image> images;
         for (std::uint32_t s = 0; s < seeds; ++s) images.push_back(noisy(noise, bias));
-        const Moments found = moments(images, truth);
+        const ErrorParts found = error_parts(images, truth);
         variance += *found.variance / runs;
         bias_squared += *found.bias_squared / runs;
         squared_error += found.squared_error / runs;
