@@ -16,7 +16,9 @@
 #include "imports/maps/openarena.h"
 #include "imports/mesh.h"
 #include "imports/scene_file.h"
+#include "meshes/mesh.h"
 #include "trace/error.h"
+#include "trace/text.h"
 #include "trace/word.h"
 
 namespace regather::cli {
@@ -53,9 +55,9 @@ Imported import_glassware(const Request& request) {
 }
 
 Imported import_one_mesh(const Request& request) {
-    if (request.up != "y" && request.up != "z")
-        throw UsageError(fmt::format("--up: found '{}', expected y or z", request.up));
-    return {imports::import_mesh(one_file(request), {.up = up_of(request.up), .size = request.size}), {}};
+    using Up = imports::MeshImportOptions::Up;
+    const Up up = request.up == "x" ? Up::x : request.up == "y" ? Up::y : Up::z;
+    return {imports::import_mesh(one_file(request), {.up = up, .size = request.size}), {}};
 }
 
 Imported import_map(const Request& request) {
@@ -75,11 +77,21 @@ constexpr std::array kinds{
                "glassware and chess on a table, from the catalogues of sweethome3d-furniture (folder or "
                ".sh3f files)",
                "", import_glassware},
-    ImportKind{"mesh", "an OBJ, PLY or glTF file, on a floor under a light; --up y|z, --size METRES",
+    ImportKind{"mesh", "an OBJ, PLY or glTF file, on a floor under a light; --up x|y|z, --size METRES",
                "--up --size ", import_one_mesh},
     ImportKind{"openarena", "a map of OpenArena or Quake III Arena: its .pk3 archives, with --map NAME",
                "--map ", import_map},
 };
+
+// Which kind reads files with such a name; "" for none.
+std::string_view kind_of_file(const std::string& name) {
+    const std::filesystem::path path(name);
+    if (meshes::format_of(path)) return "mesh";
+    const std::string extension = path.extension().string();
+    if (extension == ".sh3d" || extension == ".jar") return "sweethome3d";
+    if (extension == ".sh3f") return "furniture";
+    return extension == ".pk3" ? "openarena" : "";
+}
 
 const ImportKind& kind_of(const std::string& word) {
     std::vector<std::string_view> names;
@@ -87,6 +99,11 @@ const ImportKind& kind_of(const std::string& word) {
         if (kind.name == word) return kind;
         names.push_back(kind.name);
     }
+    const std::string_view kind = kind_of_file(word);
+    if (!kind.empty())
+        throw UsageError(
+            fmt::format("KIND: found the file {}, expected a kind before it: regather import {} {} -o DIR",
+                        trace::in_quotes(word), kind, trace::shown(word, 200)));
     throw UsageError(fmt::format("KIND: found '{}', expected {} (known: {})", word,
                                  trace::alternatives(trace::nearest_words(word, names)),
                                  trace::listed(names)));
@@ -142,11 +159,11 @@ void add_import(Command& command) {
     auto options = std::make_shared<Options>();
     Request& request = options->request;
     command.argument("KIND", options->kind, "which importer: see below").required();
-    command.arguments("FILE", request.files, "what to read").required();
-    command.option("-o,--output", options->folder, "folder for scene.json and meshes/").required();
+    command.arguments("FILE", request.files, "what to read");
+    command.option("-o,--output", options->folder, "folder for scene.json and meshes/");
     command.option("--home", request.home, "which home of the archive (sweethome3d)");
     command.option("--map", request.map, "which map of the archives (openarena)");
-    command.option("--up", request.up, "the file's axis that points up, y or z (mesh)");
+    command.choice("--up", request.up, {"x", "y", "z"}, "the file's axis that points up (mesh)");
     command.option("--size", request.size, {.least = 0, .above = true},
                    "the object's largest extent in metres (mesh)");
     command.flag("--force", options->force, "replace an imported scene");
@@ -154,10 +171,19 @@ void add_import(Command& command) {
     command.action(options, [&command](const Options& asked, const Console& console) {
         const ImportKind& kind = kind_of(asked.kind);
         refuse_options_of_others(command, kind);
+        if (asked.request.files.empty())
+            throw UsageError(fmt::format(
+                "FILE: found none, expected what to read: regather import {} FILE -o DIR", kind.name));
+        if (asked.folder.empty())
+            throw UsageError("--output: found none, expected the folder of the scene: -o DIR");
         imports::check_scene_folder(asked.folder, asked.force);
         const Imported imported = kind.import(asked.request);
         imports::write_scene(imported.scene, asked.folder, asked.force);
         console.print("{}", summary_of(imported.scene));
+        if (kind.name == "mesh")
+            console.print("up       {} of the file{}\n", asked.request.up,
+                          command.given("--up") ? "" : ", by default: see --up");
+        for (const std::string& note : imported.scene.notes) fmt::print(console.err, "note: {}\n", note);
         for (const std::string& note : imported.notes) console.print("note     {}\n", note);
         console.print("written  {}\n", (asked.folder / "scene.json").string());
     });

@@ -12,6 +12,7 @@
 #include "meshes/mesh.h"
 #include "scenes/mesh_material.h"
 #include "trace/error.h"
+#include "trace/text.h"
 
 namespace regather::imports {
 
@@ -65,6 +66,8 @@ ImportedScene import_mesh(const std::filesystem::path& file, const MeshImportOpt
     scene.name = plain_name(file.stem().string());
     scene.origin = fmt::format("{}", file.filename().string());
     scene.licence = "not stated in the file";
+    for (const std::string& note : mesh.notes)
+        scene.notes.push_back(fmt::format("{}: {}", trace::shown(file.string(), 200), note));
     MaterialTable table(scene.materials);
     const auto size = static_cast<float>(options.size);
     const std::uint32_t floor = table.index_of({.name = "studio_floor", .diffuse = {0.5f, 0.5f, 0.5f}});

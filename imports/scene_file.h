@@ -46,6 +46,7 @@ struct ImportedScene {
     std::vector<Material> materials;   ///< With names that differ, plain ASCII.
     std::vector<ImportedMesh> meshes;  ///< Several may have one material; they share a file, in this order.
     std::vector<ImportedLight> lights;
+    std::vector<std::string> notes;  ///< What was guessed or left out, a line each: not written, but told.
 
     std::uint64_t triangle_count() const;  ///< Of the meshes.
 };
