@@ -168,10 +168,13 @@ void run(const Options& options, const Console& console) {
         throw trace::UsageError(fmt::format("--csv {}: found a file, expected none (--force overwrites it)",
                                             options.csv.string()));
 
-    const std::string rows = !machines.empty()
-                                 ? run_machines(machines, options.files, Progress(console).listener())
-                             : options.all_lru ? all_lru(options, console)
-                                               : table(simulate(options, configs, console));
+    std::string rows;
+    if (!machines.empty()) {
+        Progress progress(console);
+        rows = run_machines(machines, options.files, progress);
+    } else {
+        rows = options.all_lru ? all_lru(options, console) : table(simulate(options, configs, console));
+    }
     if (options.csv.empty())
         console.print("{}", rows);
     else

@@ -187,7 +187,7 @@ std::string machine_rows(const Machine& machine, const Hierarchy& hierarchy) {
 }
 
 std::string run_machines(std::span<const Machine> machines, const cachesim::AddressFiles& files,
-                         const experiment::ProgressListener& progress) {
+                         Progress& progress) {
     cachesim::AddressTrace trace(files);
     std::vector<Hierarchy> hierarchies;
     for (const Machine& machine : machines) hierarchies.push_back(machine.hierarchy());
@@ -195,7 +195,7 @@ std::string run_machines(std::span<const Machine> machines, const cachesim::Addr
         tbb::parallel_for_each(
             hierarchies, [&](Hierarchy& hierarchy) { hierarchy.access(records, trace::Region::other); });
         const auto [done, total, unit] = trace.position();
-        if (total != 0) progress("cachesim", unit, done, total);
+        if (total != 0) progress.update("cachesim", unit, done, total);
     }
     for (const std::string& note : trace.notes()) progress.note(note);
     std::string csv = machine_header();

@@ -7,7 +7,7 @@
 
 #include "cachesim/address_trace.h"
 #include "cachesim/machine.h"
-#include "experiment/progress.h"
+#include "cli/progress.h"
 
 namespace regather::cli {
 
@@ -21,8 +21,8 @@ std::string machine_header();
 std::string machine_rows(const cachesim::Machine& machine, const cachesim::Hierarchy& hierarchy);
 
 /// A whole CSV: the trace, read once, through each machine from empty to flushed. All is charged to
-/// Region::other.
+/// Region::other; what the trace's reader passed over is said on `progress`.
 std::string run_machines(std::span<const cachesim::Machine> machines, const cachesim::AddressFiles& files,
-                         const experiment::ProgressListener& progress);
+                         Progress& progress);
 
 }  // namespace regather::cli
