@@ -1,5 +1,5 @@
-// `regather import KIND FILE... -o DIR`: scenes of others as scene files. One importer a kind:
-// scenes/import_*.h.
+// `regather import KIND FILE... -o DIR`: scenes of others as scene files. One importer a kind, each in
+// imports/.
 #include <fmt/format.h>
 
 #include <array>
@@ -35,39 +35,33 @@ struct Request {
     double size = 1;
 };
 
-struct Imported {
-    ImportedScene scene;
-    std::vector<std::string> notes;  ///< What was guessed or left out, a line each.
-};
-
 const std::filesystem::path& one_file(const Request& request) {
     if (request.files.size() != 1)
         throw UsageError(fmt::format("FILE: found {} files, expected one", request.files.size()));
     return request.files.front();
 }
 
-Imported import_home(const Request& request) {
-    return {imports::import_sweethome3d(one_file(request), request.home), {}};
+ImportedScene import_home(const Request& request) {
+    return imports::import_sweethome3d(one_file(request), request.home);
 }
 
-Imported import_glassware(const Request& request) {
-    return {imports::import_furniture(request.files), {}};
+ImportedScene import_glassware(const Request& request) {
+    return imports::import_furniture(request.files);
 }
 
-Imported import_one_mesh(const Request& request) {
+ImportedScene import_one_mesh(const Request& request) {
     using Up = imports::MeshImportOptions::Up;
     const Up up = request.up == "x" ? Up::x : request.up == "y" ? Up::y : Up::z;
-    return {imports::import_mesh(one_file(request), {.up = up, .size = request.size}), {}};
+    return imports::import_mesh(one_file(request), {.up = up, .size = request.size});
 }
 
-Imported import_map(const Request& request) {
-    imports::OpenArenaMap map = imports::import_openarena(request.files, {.map = request.map});
-    return {std::move(map.scene), std::move(map.notes)};
+ImportedScene import_map(const Request& request) {
+    return imports::import_openarena(request.files, {.map = request.map});
 }
 
 struct ImportKind {
     std::string_view name, summary, options;  ///< Options by name, each with a space behind it.
-    Imported (*import)(const Request&);
+    ImportedScene (*import)(const Request&);
 };
 
 constexpr std::array kinds{
@@ -177,14 +171,13 @@ void add_import(Command& command) {
         if (asked.folder.empty())
             throw UsageError("--output: found none, expected the folder of the scene: -o DIR");
         imports::check_scene_folder(asked.folder, asked.force);
-        const Imported imported = kind.import(asked.request);
-        imports::write_scene(imported.scene, asked.folder, asked.force);
-        console.print("{}", summary_of(imported.scene));
+        const ImportedScene scene = kind.import(asked.request);
+        imports::write_scene(scene, asked.folder, asked.force);
+        console.print("{}", summary_of(scene));
         if (kind.name == "mesh")
             console.print("up       {} of the file{}\n", asked.request.up,
                           command.given("--up") ? "" : ", by default: see --up");
-        for (const std::string& note : imported.scene.notes) fmt::print(console.err, "note: {}\n", note);
-        for (const std::string& note : imported.notes) console.print("note     {}\n", note);
+        for (const std::string& note : scene.notes) fmt::print(console.err, "note: {}\n", note);
         console.print("written  {}\n", (asked.folder / "scene.json").string());
     });
 }

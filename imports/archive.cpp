@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "trace/error.h"
+#include "trace/text.h"
 
 namespace regather::imports {
 
@@ -14,11 +15,42 @@ using trace::DataError;
 
 namespace {
 
-std::string one_line(const char* text) {
-    std::string line = text ? text : "no reason given";
-    for (char& c : line)
-        if (static_cast<unsigned char>(c) < 32) c = ' ';
-    return line;
+// What is wrong, by libzip's codes.
+std::string_view damage_of(int code) {
+    switch (code) {
+        case ZIP_ER_MULTIDISK:
+            return "one part of an archive of several";
+        case ZIP_ER_SEEK:
+        case ZIP_ER_READ:
+            return "bytes that cannot be read";
+        case ZIP_ER_CRC:
+            return "bytes whose checksum is another one";
+        case ZIP_ER_OPEN:
+            return "a file that cannot be opened";
+        case ZIP_ER_ZLIB:
+        case ZIP_ER_COMPRESSED_DATA:
+            return "compressed bytes that are damaged";
+        case ZIP_ER_MEMORY:
+            return "more than fits into memory";
+        case ZIP_ER_COMPNOTSUPP:
+            return "a way of compression that is not known";
+        case ZIP_ER_EOF:
+            return "the end too early";
+        case ZIP_ER_NOZIP:
+            return "no directory of entries";
+        case ZIP_ER_INCONS:
+            return "a directory that contradicts itself";
+        case ZIP_ER_ENCRNOTSUPP:
+        case ZIP_ER_NOPASSWD:
+        case ZIP_ER_WRONGPASSWD:
+            return "an encrypted entry";
+        default:
+            return "damage";
+    }
+}
+
+[[noreturn]] void refuse_archive(const std::string& name, int code) {
+    throw DataError(fmt::format("{}: found no sound zip archive ({}), expected one", name, damage_of(code)));
 }
 
 struct CloseFile {
@@ -30,6 +62,7 @@ struct CloseFile {
 struct Zip::State {
     std::vector<std::uint8_t> bytes;  // of an archive in memory: libzip reads them in place
     zip_t* archive = nullptr;
+    std::uint64_t read = 0;  // bytes of entries, all together
 
     State() = default;
     State(const State&) = delete;
@@ -63,13 +96,7 @@ Zip Zip::open(const std::filesystem::path& file) {
     auto state = std::make_unique<State>();
     int code = 0;
     state->archive = ::zip_open(name.c_str(), ZIP_RDONLY, &code);
-    if (!state->archive) {
-        zip_error_t reason;
-        ::zip_error_init_with_code(&reason, code);
-        const std::string text = one_line(::zip_error_strerror(&reason));
-        ::zip_error_fini(&reason);
-        throw DataError(fmt::format("{}: found no sound zip archive ({}), expected one", name, text));
-    }
+    if (!state->archive) refuse_archive(name, code);
     return Zip(std::move(state), name);
 }
 
@@ -81,10 +108,10 @@ Zip Zip::from_bytes(std::vector<std::uint8_t> bytes, std::string name) {
     zip_source_t* source = ::zip_source_buffer_create(state->bytes.data(), state->bytes.size(), 0, &reason);
     if (source) state->archive = ::zip_open_from_source(source, ZIP_RDONLY, &reason);
     if (!state->archive) {
-        const std::string text = one_line(::zip_error_strerror(&reason));
+        const int code = ::zip_error_code_zip(&reason);
         if (source) ::zip_source_free(source);
         ::zip_error_fini(&reason);
-        throw DataError(fmt::format("{}: found no sound zip archive ({}), expected one", name, text));
+        refuse_archive(name, code);
     }
     ::zip_error_fini(&reason);
     return Zip(std::move(state), std::move(name));
@@ -95,9 +122,18 @@ bool Zip::has(std::string_view name) const {
 }
 
 std::vector<std::uint8_t> Zip::read(std::string_view name, std::uint64_t most_bytes) const {
+    return bytes_of(name, most_bytes, true);
+}
+
+std::vector<std::uint8_t> Zip::read_start(std::string_view name, std::uint64_t bytes) const {
+    return bytes_of(name, bytes, false);
+}
+
+std::vector<std::uint8_t> Zip::bytes_of(std::string_view name, std::uint64_t most_bytes, bool whole) const {
     const std::string entry(name);
     const auto fail = [&](std::string_view found, std::string_view expected) {
-        throw DataError(fmt::format("{}: {}: found {}, expected {}", name_, entry, found, expected));
+        throw DataError(
+            fmt::format("{}: {}: found {}, expected {}", name_, trace::shown(name, 200), found, expected));
     };
     const std::int64_t index = ::zip_name_locate(state_->archive, entry.c_str(), 0);
     if (index < 0) fail("no such entry", "one of that name in the archive");
@@ -109,28 +145,35 @@ std::vector<std::uint8_t> Zip::read(std::string_view name, std::uint64_t most_by
     const auto too_large = [&](std::string_view bytes) {
         fail(fmt::format("{} bytes", bytes), fmt::format("at most {}", most_bytes));
     };
-    if (stat.size > most_bytes) too_large(fmt::format("{}", stat.size));
+    if (whole && stat.size > most_bytes) too_large(fmt::format("{}", stat.size));
 
     const std::unique_ptr<zip_file_t, CloseFile> file(
         ::zip_fopen_index(state_->archive, static_cast<zip_uint64_t>(index), 0));
     if (!file)
-        fail(fmt::format("an unreadable entry ({})", one_line(::zip_strerror(state_->archive))),
+        fail(fmt::format("an unreadable entry ({})",
+                         damage_of(::zip_error_code_zip(::zip_get_error(state_->archive)))),
              "a sound one");
     // The declared size is only believed as the bytes arrive.
     constexpr std::uint64_t step = 1 << 20;
+    const std::uint64_t most_read = whole ? most_bytes + 1 : most_bytes;
     std::vector<std::uint8_t> bytes;
-    for (;;) {
+    while (bytes.size() < most_read) {
         const std::size_t before = bytes.size();
-        bytes.resize(before + std::min(step, most_bytes - before + 1));
+        bytes.resize(before + std::min(step, most_read - before));
         const std::int64_t got = ::zip_fread(file.get(), bytes.data() + before, bytes.size() - before);
         if (got < 0)
-            fail(fmt::format("damaged data ({})", one_line(::zip_file_strerror(file.get()))),
+            fail(fmt::format("damaged data ({})",
+                             damage_of(::zip_error_code_zip(::zip_file_get_error(file.get())))),
                  "a sound entry");
         bytes.resize(before + static_cast<std::size_t>(got));
-        if (bytes.size() > most_bytes) too_large(fmt::format("more than {}", most_bytes));
+        state_->read += static_cast<std::uint64_t>(got);
+        if (state_->read > most_zip_bytes)
+            fail(fmt::format("{} bytes with the entries before", state_->read),
+                 fmt::format("at most {}", most_zip_bytes));
         if (got == 0) break;
     }
-    if (bytes.size() != stat.size)
+    if (whole && bytes.size() > most_bytes) too_large(fmt::format("more than {}", most_bytes));
+    if (whole && bytes.size() != stat.size)
         fail(fmt::format("{} bytes", bytes.size()), fmt::format("the {} it declares", stat.size));
     return bytes;
 }

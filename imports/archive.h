@@ -10,8 +10,10 @@
 
 namespace regather::imports {
 
-/// More entries than this are refused.
+/// More entries than this are refused, and more bytes of entries in all: an archive of a few bytes may
+/// promise any number.
 inline constexpr std::uint64_t most_zip_entries = 1'000'000;
+inline constexpr std::uint64_t most_zip_bytes = std::uint64_t{4} << 30;
 
 /// An open archive; not for two threads at once. Every refusal is a trace::DataError that names the archive
 /// and, where there is one, the entry.
@@ -33,10 +35,13 @@ public:
     /// All bytes of an entry, checksum verified. DataError when it is missing, damaged, encrypted, or larger
     /// than `most_bytes`, whatever size it declares.
     std::vector<std::uint8_t> read(std::string_view name, std::uint64_t most_bytes) const;
+    /// Its first `bytes` bytes, or fewer when it has no more; no checksum is verified.
+    std::vector<std::uint8_t> read_start(std::string_view name, std::uint64_t bytes) const;
 
 private:
     struct State;
     Zip(std::unique_ptr<State> state, std::string name);
+    std::vector<std::uint8_t> bytes_of(std::string_view name, std::uint64_t most_bytes, bool whole) const;
 
     std::unique_ptr<State> state_;
     std::string name_;

@@ -96,6 +96,12 @@ Model read_model(const Zip& zip, const std::string& name) {
             !special.empty())
             tags[t] = materials + (special == pane_material ? 0 : 1);
     Model model;
+    model.notes = mesh.notes;
+    if (!mesh.missing_libraries.empty())
+        model.notes.push_back(
+            fmt::format("material libraries (mtllib) that are not there: {}", mesh.missing_libraries.size()));
+    if (mesh.degenerate_faces > 0)
+        model.notes.push_back(fmt::format("faces without an area: {}", mesh.degenerate_faces));
     for (std::uint32_t tag = 0; tag < materials + 2; ++tag) {
         Surface surface = triangles_with(mesh.surface, tags, tag);
         if (surface.triangles.empty()) continue;

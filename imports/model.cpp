@@ -16,29 +16,26 @@ constexpr double crease_degrees = 40;
 constexpr float pane_thickness = 0.004f;  // [m] Of glass that is a sheet in the model.
 constexpr double least_size = 1e-6;       // Of a model's box, as a share of its largest extent.
 
-// A 3 x 3 matrix by rows.
-using Matrix = std::array<double, 9>;
-
-Matrix product(const Matrix& a, const Matrix& b) {
-    Matrix c{};
+Matrix3 product(const Matrix3& a, const Matrix3& b) {
+    Matrix3 c{};
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j)
             for (std::size_t k = 0; k < 3; ++k) c[3 * i + j] += a[3 * i + k] * b[3 * k + j];
     return c;
 }
 
-Vec3d times(const Matrix& m, Vec3d p) {
+Vec3d times(const Matrix3& m, Vec3d p) {
     return {m[0] * p.x + m[1] * p.y + m[2] * p.z, m[3] * p.x + m[4] * p.y + m[5] * p.z,
             m[6] * p.x + m[7] * p.y + m[8] * p.z};
 }
 
-Matrix about_x(double a) {
+Matrix3 about_x(double a) {
     return {1, 0, 0, 0, std::cos(a), -std::sin(a), 0, std::sin(a), std::cos(a)};
 }
-Matrix about_y(double a) {
+Matrix3 about_y(double a) {
     return {std::cos(a), 0, std::sin(a), 0, 1, 0, -std::sin(a), 0, std::cos(a)};
 }
-Matrix about_z(double a) {
+Matrix3 about_z(double a) {
     return {std::cos(a), -std::sin(a), 0, std::sin(a), std::cos(a), 0, 0, 0, 1};
 }
 
@@ -50,19 +47,19 @@ struct ModelBox {
             max[i] = std::max(max[i], p[i]);
         }
     }
-    double middle(int i) const { return (min[i] + max[i]) / 2; }
+    Vec3d middle() const { return (min + max) * 0.5; }
     double size(int i) const { return max[i] - min[i]; }
 };
 
-ModelBox box_of(const Model& model, const Matrix& turn) {
+ModelBox box_of(const Model& model, const Affine& place) {
     ModelBox box;
     for (const Model::Part& part : model.parts)
-        for (const Vec3 p : part.surface.vertices) box.include(times(turn, p));
+        for (const Vec3 p : part.surface.vertices) box.include(place(p));
     return box;
 }
 
 // The inverse of a diagonal or rotation matrix, transposed: what normals are turned with. By cofactors.
-Matrix for_normals(const Matrix& m) {
+Matrix3 for_normals(const Matrix3& m) {
     return {m[4] * m[8] - m[5] * m[7], m[5] * m[6] - m[3] * m[8], m[3] * m[7] - m[4] * m[6],
             m[2] * m[7] - m[1] * m[8], m[0] * m[8] - m[2] * m[6], m[1] * m[6] - m[0] * m[7],
             m[1] * m[5] - m[2] * m[4], m[2] * m[3] - m[0] * m[5], m[0] * m[4] - m[1] * m[3]};
@@ -96,36 +93,54 @@ std::uint64_t Model::triangles() const {
     return count;
 }
 
-std::vector<Model::Part> placed(const Model& model, const Placement& placement) {
-    constexpr Matrix identity{1, 0, 0, 0, 1, 0, 0, 0, 1};
-    const Matrix first = placement.model_rotation.value_or(identity);
+Vec3d Affine::operator()(Vec3d p) const {
+    return times(linear, p) + offset;
+}
+
+Pose pose_of(const Model& model, const Placement& placement) {
+    const Affine whole;
+    const Affine first{
+        placement.model_rotation.value_or(whole.linear),
+        -times(placement.model_rotation.value_or(whole.linear), box_of(model, whole).middle())};
     const ModelBox box = box_of(model, first);
+    const bool centred = placement.centred || !placement.model_rotation;
     const double largest = std::max({box.size(0), box.size(1), box.size(2)});
-    const auto factor = [&](int axis, double size) {
-        return box.size(axis) > least_size * largest ? size / box.size(axis) : 1;
+    const auto is_flat = [&](int axis) { return !(box.size(axis) > least_size * largest); };
+    const auto factor = [&](int axis, double size) { return is_flat(axis) ? 1 : size / box.size(axis); };
+    const double side = placement.mirrored ? -1 : 1;
+    const Matrix3 scale{side * factor(0, placement.width), 0, 0, 0, factor(1, placement.height), 0, 0, 0,
+                        factor(2, placement.depth)};
+    const Matrix3 size{side * placement.width, 0, 0, 0, placement.height, 0, 0, 0, placement.depth};
+
+    const bool leans = placement.pitch != 0 || placement.roll != 0;
+    const Matrix3 lean = leans ? product(about_z(-placement.roll), about_x(-placement.pitch)) : whole.linear;
+    const Matrix3 shape = product(lean, scale);
+    const Affine leaning{product(shape, first.linear),
+                         times(shape, first.offset - (centred ? box.middle() : Vec3d{}))};
+    const ModelBox stands = box_of(model, leaning);
+    Vec3d middle = leans ? stands.middle() : Vec3d{};
+    middle.y = leans || (centred && !is_flat(1)) ? stands.min.y : -placement.height / 2;
+
+    // Of the model's axes (x right, y up, z front) as the scene's: (x, -z, y).
+    const Matrix3 yaw = product(Matrix3{1, 0, 0, 0, 0, -1, 0, 1, 0}, about_y(-placement.angle));
+    const auto stood = [&](const Affine& a) {
+        return Affine{product(yaw, a.linear), times(yaw, a.offset - middle) + placement.foot};
     };
-    const double x = factor(0, placement.width) * (placement.mirrored ? -1 : 1);
-    const Matrix scale{x, 0, 0, 0, factor(1, placement.height), 0, 0, 0, factor(2, placement.depth)};
-    const Matrix turn =
-        product(about_y(-placement.angle), product(about_x(-placement.pitch), about_z(-placement.roll)));
-    const Matrix shape = product(scale, first);
-    const Matrix all = product(turn, shape);
-    const Matrix normals = for_normals(all);
-    const ModelBox turned = box_of(model, all);
+    return {stood(leaning), stood({product(lean, size), {}})};
+}
+
+std::vector<Model::Part> placed(const Model& model, const Placement& placement) {
+    const Pose pose = pose_of(model, placement);
+    const Matrix3 normals = for_normals(pose.of_model.linear);
 
     std::vector<Model::Part> parts = model.parts;
     for (Model::Part& part : parts) {
-        for (Vec3& p : part.surface.vertices) {
-            const Vec3d q = times(all, p);
-            p = to_float(Vec3d{q.x - turned.middle(0) + placement.foot.x,
-                               turned.middle(2) - q.z + placement.foot.y,
-                               q.y - turned.min.y + placement.foot.z});
-        }
+        for (Vec3& p : part.surface.vertices) p = to_float(pose.of_model(p));
         for (Vec3& n : part.surface.normals) {
             if (n == Vec3{}) continue;
             const Vec3d q = times(normals, n);
             const double size = std::hypot(q.x, q.y, q.z) * (placement.mirrored ? -1 : 1);
-            n = size != 0 ? to_float(Vec3d{q.x / size, -q.z / size, q.y / size}) : Vec3{};
+            n = size != 0 ? to_float(q * (1 / size)) : Vec3{};
         }
         if (placement.mirrored)
             for (auto& triangle : part.surface.triangles) std::swap(triangle[1], triangle[2]);

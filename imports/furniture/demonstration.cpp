@@ -117,6 +117,7 @@ ImportedScene import_furniture(std::span<const fs::path> files) {
     MaterialTable table(scene.materials);
     add_room(table, scene);
     add_light(scene);
+    LeftOut left_out;
     std::vector<std::string> credits, licences;
     const auto add_once = [](std::vector<std::string>& list, std::string text) {
         if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(std::move(text));
@@ -129,7 +130,9 @@ ImportedScene import_furniture(std::span<const fs::path> files) {
                                         files.empty() ? "furniture" : files.front().string(), item.model,
                                         catalogues.size()));
         const std::string model(item.model);
-        std::vector<Model::Part> parts = placed(read_model(found->zip(), model), placement_of(item));
+        const Model read = read_model(found->zip(), model);
+        for (const std::string& note : read.notes) left_out.add_note_of_model(note);
+        std::vector<Model::Part> parts = placed(read, placement_of(item));
         for (Model::Part& part : parts) {
             if (part.material.name == item.glass)
                 part.material = {.name = part.material.name, .kind = MaterialKind::dielectric, .diffuse = {}};
@@ -146,6 +149,14 @@ ImportedScene import_furniture(std::span<const fs::path> files) {
         for (const std::string& one : list) text += (text.empty() ? "" : "; ") + one;
         return text;
     };
+    std::size_t models = 0;
+    for (const FurnitureCatalogue& catalogue : catalogues) {
+        models += catalogue.models();
+        catalogue.count_left_out(left_out);
+    }
+    scene.notes.push_back(
+        fmt::format("{} of {} models of {} catalogues", std::size(items) - 1, models, catalogues.size()));
+    for (std::string& line : left_out.lines()) scene.notes.push_back(std::move(line));
     scene.name = "glassware";
     scene.origin = "Sweet Home 3D furniture: " + joined(credits);
     scene.licence = joined(licences);

@@ -29,6 +29,7 @@ constexpr double least_light_radius = 0.04, most_light_radius = 0.5;  // [m]
 constexpr double margin = 2;   // [cm] That floors and ceilings of a storey reach beyond its walls.
 constexpr double layer = 0.2;  // [cm] Between what lies on each other.
 constexpr std::uint32_t least_frames = 30, least_frames_per_camera = 5;
+constexpr double least_level = 0.07;   // Cosine of the pitch below which a view looks along the vertical.
 constexpr double turn_radians = 0.35;  // To each side, at each camera of the path.
 constexpr Rgb8 plaster{230, 230, 230}, ground{150, 140, 130};
 
@@ -44,9 +45,8 @@ std::vector<std::string> home_entries(const Zip& zip) {
     std::vector<std::string> entries;
     for (const std::string& name : zip.names()) {
         if (!name.ends_with(".xml")) continue;
-        const std::vector<std::uint8_t> bytes = zip.read(name, most_home_bytes);
-        const std::string_view start(reinterpret_cast<const char*>(bytes.data()),
-                                     std::min<std::size_t>(bytes.size(), 1024));
+        const std::vector<std::uint8_t> bytes = zip.read_start(name, 1024);
+        const std::string_view start(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         if (start.find("<home") != std::string_view::npos) entries.push_back(name);
     }
     if (entries.empty())
@@ -83,7 +83,13 @@ Vec3 unit_color(Rgb8 color) {
 
 class HomeScene {
 public:
-    HomeScene(const Zip& zip, Home home) : zip_(zip), home_(std::move(home)), table_(scene_.materials) {}
+    HomeScene(const Zip& zip, Home home) : zip_(zip), home_(std::move(home)), table_(scene_.materials) {
+        for (const HomeLevel& level : home_.levels) levels_.emplace(level.id, &level);
+        for (const HomePiece& piece : home_.pieces)
+            if (piece.opening && piece.visible && is_shown(piece.level)) openings_.push_back(&piece);
+    }
+    HomeScene(const HomeScene&) = delete;
+    HomeScene& operator=(const HomeScene&) = delete;
 
     ImportedScene build() {
         add_storeys();
@@ -91,6 +97,7 @@ public:
         add_rooms();
         for (std::size_t p = 0; p < home_.pieces.size(); ++p) add_piece(home_.pieces[p], p);
         add_cameras();
+        scene_.notes = home_.left_out.lines();
         return std::move(scene_);
     }
 
@@ -100,10 +107,16 @@ private:
         throw DataError(fmt::format("{}: {}: found {}, expected {}", zip_.archive(), field, found, expected));
     }
 
+    void count_triangles(std::uint64_t more, const std::string& field) {
+        triangles_ += more;
+        if (triangles_ > most_home_triangles)
+            fail(field, fmt::format("{} triangles so far", triangles_),
+                 fmt::format("at most {}", most_home_triangles));
+    }
+
     const HomeLevel* level_of(const std::string& id) const {
-        for (const HomeLevel& level : home_.levels)
-            if (level.id == id) return &level;
-        return nullptr;
+        const auto found = levels_.find(id);
+        return found == levels_.end() ? nullptr : found->second;
     }
     double elevation_of(const std::string& level) const {
         const HomeLevel* found = level_of(level);
@@ -125,16 +138,17 @@ private:
 
     static Surface slab(double x0, double y0, double x1, double y1, double z, bool up) {
         const std::array<PlanPoint, 4> corners{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}};
-        return flat(corners, z, up);
+        return flat(corners, meshes::triangulate(corners), z, up);
     }
 
-    static Surface flat(std::span<const PlanPoint> polygon, double z, bool up) {
+    static Surface flat(std::span<const PlanPoint> polygon,
+                        std::span<const std::array<std::uint32_t, 3>> triangles, double z, bool up) {
         Surface surface;
         for (const PlanPoint p : polygon) surface.vertices.push_back(in_metres(p, z));
         surface.normals.resize(surface.vertices.size());
         // Turning y round turns the corners' sense: a positive area on the plan faces down.
         const bool turn = (twice_area(polygon) > 0) == up;
-        for (const auto& [a, b, c] : triangulate(polygon))
+        for (const auto& [a, b, c] : triangles)
             surface.triangles.push_back(turn ? std::array{a, c, b} : std::array{a, b, c});
         return surface;
     }
@@ -175,63 +189,98 @@ private:
             if (!is_shown(wall.level)) continue;
             const double foot = elevation_of(wall.level);
             std::vector<WallHole> holes;
-            for (const HomePiece& piece : home_.pieces)
-                if (piece.opening && piece.visible && is_shown(piece.level))
-                    holes.push_back(hole_of(piece, foot));
+            const PlanBox box = box_of(outlines[w]);
+            for (const HomePiece* piece : openings_)
+                if (may_cross(*piece, box)) holes.push_back(hole_of(*piece, foot));
+            if (holes.size() > most_wall_openings)
+                fail(fmt::format("wall[{}]", w), fmt::format("{} doors and windows", holes.size()),
+                     fmt::format("at most {} in one wall", most_wall_openings));
             const WallSurfaces surfaces = extrude(wall, outlines[w], foot, holes);
+            count_triangles(surfaces.left.triangles.size() + surfaces.right.triangles.size() +
+                                surfaces.top.triangles.size(),
+                            fmt::format("wall[{}]", w));
             add_surface(painted("wall", wall.left.value_or(plaster), wall.left_shininess), surfaces.left);
             add_surface(painted("wall", wall.right.value_or(plaster), wall.right_shininess), surfaces.right);
             add_surface(painted("wall", wall.top.value_or(plaster), 0), surfaces.top);
         }
     }
 
+    struct PlanBox {
+        double x0 = 1e300, y0 = 1e300, x1 = -1e300, y1 = -1e300;
+    };
+    static PlanBox box_of(const WallOutline& outline) {
+        PlanBox box;
+        for (const std::vector<PlanPoint>* side : {&outline.left, &outline.right})
+            for (const PlanPoint p : *side)
+                box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x),
+                       std::max(box.y1, p.y)};
+        return box;
+    }
+
+    // Whether a circle round all that the piece cuts meets the box.
+    static bool may_cross(const HomePiece& piece, const PlanBox& box) {
+        const HomeOpening& o = *piece.opening;
+        const double reach = piece.width * (0.5 + std::abs(o.wall_left) + o.wall_width) +
+                             piece.depth * (0.5 + std::abs(o.wall_distance) + o.wall_thickness);
+        return piece.x >= box.x0 - reach && piece.x <= box.x1 + reach && piece.y >= box.y0 - reach &&
+               piece.y <= box.y1 + reach;
+    }
+
     WallHole hole_of(const HomePiece& piece, double foot) const {
-        const double back = piece.depth * (piece.opening->wall_distance - 0.5);
-        const double front = back + piece.depth * piece.opening->wall_thickness;
-        const double left = piece.width / -2, right = piece.width / 2;
+        const HomeOpening& o = *piece.opening;
+        const double left = piece.width * (o.wall_left - 0.5), right = left + piece.width * o.wall_width;
         const double c = std::cos(piece.angle), s = std::sin(piece.angle);
         const double sense = piece.mirrored ? -1 : 1;
         const auto at = [&](double x, double y) {
             return PlanPoint{piece.x + c * sense * x - s * y, piece.y + s * sense * x + c * y};
         };
-        const double low = elevation_of(piece.level) + piece.elevation - foot;
-        return {
-            {at(left, back), at(right, back), at(right, front), at(left, front)}, low, low + piece.height};
+        const auto between = [&](double back, double front) {
+            return std::array{at(left, back), at(right, back), at(right, front), at(left, front)};
+        };
+        const double back = piece.depth * (o.wall_distance - 0.5);
+        const double low = elevation_of(piece.level) + piece.elevation - foot +
+                           piece.height * (1 - o.wall_top - o.wall_height);
+        WallHole hole{between(back, back + piece.depth * o.wall_thickness), low,
+                      low + piece.height * o.wall_height};
+        if (o.on_both_sides) hole.touch = between(piece.depth / -2, piece.depth / 2);
+        return hole;
     }
 
     void add_rooms() {
         for (const HomeRoom& room : home_.rooms) {
             if (!is_shown(room.level)) continue;
+            const auto triangles = meshes::triangulate(room.points);
+            if (meshes::Triangulator().fill(room.points) != meshes::Triangulator::Result::whole)
+                home_.left_out.add("of room", "parts of one that crosses itself");
             const double foot = elevation_of(room.level);
             if (room.floor_visible)
                 add_surface(painted("floor", room.floor.value_or(ground), room.floor_shininess),
-                            flat(room.points, foot + 2 * layer, true));
+                            flat(room.points, triangles, foot + 2 * layer, true));
             if (room.ceiling_visible)
                 add_surface(painted("ceiling", room.ceiling.value_or(plaster), room.ceiling_shininess),
-                            flat(room.points, foot + height_of(room.level) - 2 * layer, false));
+                            flat(room.points, triangles, foot + height_of(room.level) - 2 * layer, false));
         }
     }
 
     const Model& model_of(const HomePiece& piece) {
         const auto found = models_.find(piece.model);
         if (found != models_.end()) return found->second;
-        return models_.emplace(piece.model, read_model(zip_, piece.model)).first->second;
+        const Model& model = models_.emplace(piece.model, read_model(zip_, piece.model)).first->second;
+        for (const std::string& note : model.notes) home_.left_out.add_note_of_model(note);
+        return model;
     }
 
     void add_piece(const HomePiece& piece, std::size_t index) {
         if (!piece.visible || !is_shown(piece.level)) return;
         const Model& model = model_of(piece);
-        triangles_ += model.triangles();
-        if (triangles_ > most_piece_triangles)
-            fail(fmt::format("piece[{}] {}", index, in_quotes(piece.name)),
-                 fmt::format("{} triangles so far", triangles_),
-                 fmt::format("at most {} in all furniture", most_piece_triangles));
+        count_triangles(model.triangles(), fmt::format("piece[{}] {}", index, in_quotes(piece.name)));
         const Placement placement = placement_of(piece);
         std::vector<Model::Part> parts = placed(model, placement);
         for (Model::Part& part : parts) paint(part.material, piece);
         add_parts(std::move(parts), table_, scene_);
-        if (piece.power > 0)
-            for (const HomeLightSource& source : piece.light_sources) add_light(piece, source);
+        if (piece.power <= 0 || piece.light_sources.empty()) return;
+        const Affine of_box = pose_of(model, placement).of_box;
+        for (const HomeLightSource& source : piece.light_sources) add_light(piece, source, of_box);
     }
 
     Placement placement_of(const HomePiece& piece) const {
@@ -244,6 +293,7 @@ private:
         placement.roll = piece.roll;
         placement.mirrored = piece.mirrored;
         placement.model_rotation = piece.model_rotation;
+        placement.centred = piece.model_centred;
         placement.foot = {piece.x * metres, -piece.y * metres,
                           (elevation_of(piece.level) + piece.elevation) * metres};
         return placement;
@@ -267,14 +317,11 @@ private:
         }
     }
 
-    void add_light(const HomePiece& piece, const HomeLightSource& source) {
-        const double x = (source.x - 0.5) * piece.width * (piece.mirrored ? -1 : 1);
-        const double y = (source.y - 0.5) * piece.depth;
-        const double c = std::cos(piece.angle), s = std::sin(piece.angle);
-        const PlanPoint at{piece.x + c * x - s * y, piece.y + s * x + c * y};
+    // `of_box`: Pose::of_box of the piece. A source is measured from the left, the front and the foot.
+    void add_light(const HomePiece& piece, const HomeLightSource& source, const Affine& of_box) {
         ImportedLight light;
         light.shape = ImportedLight::Shape::sphere;
-        light.center = in_metres(at, elevation_of(piece.level) + piece.elevation + source.z * piece.height);
+        light.center = to_float(of_box({source.x - 0.5, source.z - 0.5, 0.5 - source.y}));
         light.radius = static_cast<float>(
             std::clamp(source.diameter * piece.width * metres / 2, least_light_radius, most_light_radius));
         light.power = unit_color(source.color) * static_cast<float>(full_power * piece.power);
@@ -292,10 +339,18 @@ private:
 
     // At yaw 0 it looks down the plan; a larger yaw looks farther clockwise. Pitch looks down.
     static Vec3 target_of(const View& view, double turn) {
-        const double yaw = view.yaw + turn, pitch = std::clamp(view.pitch, -1.5, 1.5);
+        const double yaw = view.yaw + turn, pitch = view.pitch;
         return view.position + Vec3{static_cast<float>(-std::sin(yaw) * std::cos(pitch)),
                                     static_cast<float>(-std::cos(yaw) * std::cos(pitch)),
                                     static_cast<float>(-std::sin(pitch))};
+    }
+
+    // The vertical, but for a view that looks along it.
+    static Vec3 up_of(const View& view, double turn) {
+        const double yaw = view.yaw + turn, pitch = view.pitch;
+        if (std::abs(std::cos(pitch)) > least_level) return {0, 0, 1};
+        return {static_cast<float>(-std::sin(yaw) * std::sin(pitch)),
+                static_cast<float>(-std::cos(yaw) * std::sin(pitch)), static_cast<float>(std::cos(pitch))};
     }
 
     void add_cameras() {
@@ -314,6 +369,7 @@ private:
         if (views.empty()) fail("home", "neither a camera nor a room", "one of them to look from");
         scene_.camera.position = views[0].position;
         scene_.camera.target = target_of(views[0], 0);
+        scene_.camera.up = up_of(views[0], 0);
         // The home's field of view is horizontal; pictures of it are 4 to 3.
         scene_.camera.vertical_fov_degrees =
             static_cast<float>(std::atan(std::tan(field / 2) * 3 / 4) * 360 / std::numbers::pi);
@@ -343,7 +399,7 @@ private:
             for (std::uint32_t i = 0; i < each; ++i) {
                 const double turn = turn_radians * (2.0 * i / (each - 1) - 1);
                 scene_.camera_path.push_back({static_cast<std::uint32_t>(scene_.camera_path.size()),
-                                              view.position, target_of(view, turn)});
+                                              view.position, target_of(view, turn), up_of(view, turn)});
             }
         scene_.frames = static_cast<std::uint32_t>(scene_.camera_path.size());
     }
@@ -353,6 +409,8 @@ private:
     ImportedScene scene_;
     MaterialTable table_;
     std::map<std::string, Model> models_;
+    std::map<std::string_view, const HomeLevel*> levels_;
+    std::vector<const HomePiece*> openings_;
     std::uint64_t triangles_ = 0;
 };
 

@@ -10,8 +10,8 @@
 
 namespace regather::imports {
 
-inline constexpr std::uint64_t most_home_bytes = 64u << 20;        ///< Of the XML.
-inline constexpr std::uint64_t most_piece_triangles = 20'000'000;  ///< Of all furniture together.
+inline constexpr std::uint64_t most_home_bytes = 64u << 20;       ///< Of the XML.
+inline constexpr std::uint64_t most_home_triangles = 20'000'000;  ///< Of all walls and furniture together.
 
 /// The names of the homes in an archive: "Home" for a .sh3d file, "Studio" for ".../examples/Studio.xml".
 std::vector<std::string> homes_in(const std::filesystem::path& archive);

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double least_cut = 0.1;  // [cm] Nearer cuts are one.
 constexpr double least_share_cut =
-    0.25;  // Of the thickness: a door that only touches a wall does not cut it.
+    0.25;                               // Of the thickness: a door that only touches a wall does not cut it.
+constexpr double parallel_sine = 0.01;  // Of the angle between what is as good as parallel.
 
 PlanPoint operator+(PlanPoint a, PlanPoint b) {
     return {a.x + b.x, a.y + b.y};
@@ -165,7 +166,10 @@ private:
 
     // From where to where the footprint crosses the wall; a hole that reaches an end takes all of the end.
     std::optional<std::array<double, 2>> crossing(const WallHole& hole) const {
-        std::vector<PlanPoint> polygon(hole.footprint.begin(), hole.footprint.end());
+        const PlanPoint edge = hole.footprint[1] - hole.footprint[0];
+        const bool along_it = hole.touch && std::abs(cross(edge, unit_)) <= parallel_sine * length(edge);
+        const std::array<PlanPoint, 4>& footprint = along_it ? *hole.touch : hole.footprint;
+        std::vector<PlanPoint> polygon(footprint.begin(), footprint.end());
         const PlanPoint across{-unit_.y, unit_.x};
         const double middle = dot(across, origin_), half = std::abs(dot(across, left_[0]) - middle);
         polygon = clipped(polygon, across, middle + half);
@@ -180,7 +184,8 @@ private:
             near = std::min(near, dot(across, p));
             far = std::max(far, dot(across, p));
         }
-        if (to - from < least_cut || far - near < least_share_cut * 2 * half) return {};
+        const double least_depth = along_it ? least_cut : least_share_cut * 2 * half;
+        if (to - from < least_cut || far - near < least_depth) return {};
         return std::array<double, 2>{from - low_ < least_cut ? low_ : from,
                                      high_ - to < least_cut ? high_ : to};
     }

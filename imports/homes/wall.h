@@ -3,6 +3,7 @@
 // round so that the system is right-handed.
 #pragma once
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,11 +28,13 @@ struct WallOutline {
 /// that is no farther than twice the thicker wall's thickness.
 std::vector<WallOutline> wall_outlines(std::span<const HomeWall> walls);
 
-/// What is cut out: all of a wall that the footprint crosses, between two elevations above the wall's foot
-/// [cm].
+/// What is cut out: all of a wall that `footprint` crosses by a quarter of its thickness or more, between two
+/// elevations above the wall's foot [cm]. Of a wall that runs along the footprint's first edge, all that
+/// `touch` touches at all, if there is one.
 struct WallHole {
     std::array<PlanPoint, 4> footprint;
     double low = 0, high = 0;
+    std::optional<std::array<PlanPoint, 4>> touch{};
 };
 
 /// Each part of the wall's faces by the colour it has. Together they are closed: every edge has two faces, or

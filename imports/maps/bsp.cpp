@@ -22,6 +22,7 @@ static_assert(std::endian::native == std::endian::little);
 
 constexpr std::size_t header_bytes = 8 + 17 * 8;
 constexpr std::uint64_t most_face_elements = 10'000'000;
+constexpr std::size_t most_entity_bytes = 16u << 20;
 constexpr float largest_coordinate = 1e6f;
 
 struct LumpKind {
@@ -34,6 +35,13 @@ constexpr LumpKind entities_lump{0, "entities", 1}, textures_lump{1, "textures",
     leaf_brushes_lump{6, "leaf brushes", 4}, models_lump{7, "models", 40}, brushes_lump{8, "brushes", 12},
     sides_lump{9, "brush sides", 8}, vertices_lump{10, "vertices", 44}, indices_lump{11, "mesh vertices", 4},
     faces_lump{13, "faces", 104};
+constexpr std::array unread_lumps{LumpKind{5, "leaf faces", 4}, LumpKind{12, "fogs", 72},
+                                  LumpKind{14, "light maps", 128 * 128 * 3}, LumpKind{15, "light volumes", 8},
+                                  LumpKind{16, "bytes of visibility", 1}};
+constexpr std::array all_lumps{
+    entities_lump,     textures_lump, planes_lump,     nodes_lump,      leaves_lump,    unread_lumps[0],
+    leaf_brushes_lump, models_lump,   brushes_lump,    sides_lump,      vertices_lump,  indices_lump,
+    unread_lumps[1],   faces_lump,    unread_lumps[2], unread_lumps[3], unread_lumps[4]};
 
 // One record of a lump; knows where it stands for the sake of refusals.
 class Record {
@@ -110,6 +118,7 @@ public:
         std::int32_t version;
         std::memcpy(&version, bytes.data() + 4, 4);
         if (version != 46) refuse("version", fmt::to_string(version), "46");
+        refuse_shared_bytes();
     }
 
     std::span<const std::uint8_t> lump(const LumpKind& kind) const {
@@ -143,6 +152,23 @@ public:
     }
 
 private:
+    void refuse_shared_bytes() const {
+        std::vector<std::pair<std::span<const std::uint8_t>, const char*>> lumps;
+        for (const LumpKind& kind : all_lumps)
+            if (const auto part = lump(kind); !part.empty()) lumps.emplace_back(part, kind.name);
+        std::sort(lumps.begin(), lumps.end(),
+                  [](const auto& a, const auto& b) { return a.first.data() < b.first.data(); });
+        for (std::size_t i = 1; i < lumps.size(); ++i) {
+            const auto& [before, before_name] = lumps[i - 1];
+            const auto& [part, name] = lumps[i];
+            if (before.data() + before.size() > part.data())
+                refuse(fmt::format("lump of {}", name),
+                       fmt::format("it from byte {} on", part.data() - bytes_.data()),
+                       fmt::format("it behind the lump of {}, which ends at {}", before_name,
+                                   before.data() + before.size() - bytes_.data()));
+        }
+    }
+
     std::span<const std::uint8_t> bytes_;
     std::string_view file_;
 };
@@ -219,6 +245,12 @@ Bsp read_bsp(std::span<const std::uint8_t> bytes, std::string_view name) {
     const Reader reader(bytes, name);
     Bsp bsp;
     const auto text = reader.lump(entities_lump);
+    if (text.size() > most_entity_bytes)
+        reader.refuse("lump of entities", fmt::format("{} bytes", text.size()),
+                      fmt::format("at most {}", most_entity_bytes));
+    for (const LumpKind& kind : unread_lumps)
+        if (const std::size_t count = reader.count(kind); count > 0)
+            bsp.left_out.add("of the map", kind.name, count);
     bsp.entities = read_entities({reinterpret_cast<const char*>(text.data()), text.size()}, name);
     bsp.textures = reader.records<BspTexture>(textures_lump, texture);
     bsp.planes = reader.records<BspPlane>(planes_lump, [](const Record& record) {

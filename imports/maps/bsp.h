@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "imports/left_out.h"
 #include "trace/vec.h"
 
 namespace regather::imports {
@@ -97,11 +98,13 @@ struct Bsp {
     std::vector<BspVertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<BspFace> faces;
+    LeftOut left_out;  ///< Lumps that are not read.
 };
 
-/// `name` stands for the file in errors. Throws trace::DataError when the bytes are no whole IBSP 46 file, an
-/// index leads nowhere, a number is not finite or beyond a million units, or its faces use more than ten
-/// million indices and control points together.
+/// `name` stands for the file in errors. Throws trace::DataError when the bytes are no whole IBSP 46 file,
+/// two lumps share bytes, an index leads nowhere, a number is not finite or beyond a million units, its faces
+/// use more than ten million indices and control points together, or its entities have more than 16 MiB of
+/// text.
 Bsp read_bsp(std::span<const std::uint8_t> bytes, std::string_view name);
 
 /// Entities of the text form { "key" "value" ... } .... DataError names the line.

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "imports/maps/bsp.h"
+#include "imports/maps/entity_keys.h"
 #include "imports/maps/light_cluster.h"
 #include "imports/maps/map_material.h"
 #include "imports/maps/patch.h"
@@ -173,14 +174,15 @@ public:
     Importer(const Pk3Archives& archives, const Bsp& bsp, const OpenArenaOptions& options)
         : bsp_(bsp), options_(options), colours_(archives), scripts_(read_scripts(archives)) {}
 
-    OpenArenaMap import(std::string name) {
-        result_.scene.name = plain_name(name);
+    ImportedScene import(std::string name) {
+        result_.name = plain_name(name);
         sort_textures();
         collect_faces();
         add_surface_lights();
         add_entity_lights();
         add_meshes();
         add_tour(name);
+        add_left_out();
         return std::move(result_);
     }
 
@@ -295,8 +297,19 @@ private:
             const std::string ending = fmt::format("-{}", n);
             material.name = base.substr(0, 64 - ending.size()) + ending;
         }
-        result_.scene.materials.push_back(material);
-        return static_cast<std::uint32_t>(result_.scene.materials.size() - 1);
+        result_.materials.push_back(material);
+        return static_cast<std::uint32_t>(result_.materials.size() - 1);
+    }
+
+    // Of the map, its entities, and the scripts of its textures.
+    void add_left_out() {
+        LeftOut left_out = bsp_.left_out;
+        count_left_out(bsp_.entities, left_out);
+        for (const Group& group : groups_)
+            if (const ShaderScript* script = textures_[group.texture].script)
+                for (const auto& [name, count] : script->left_out)
+                    left_out.add("of shader scripts", name, count);
+        for (std::string& line : left_out.lines()) result_.notes.push_back(std::move(line));
     }
 
     static void to_metres(Surface& surface) {
@@ -321,7 +334,7 @@ private:
             const bool reflects = textures_[texture].surface == MapSurface::solid;
             const std::int32_t material = reflects ? static_cast<std::int32_t>(material_of(texture)) : -1;
             for (Surface& part : parts[i]) {
-                ImportedLight& light = result_.scene.lights.emplace_back();
+                ImportedLight& light = result_.lights.emplace_back();
                 light.shape = ImportedLight::Shape::mesh;
                 triangles += part.triangles.size();
                 light.surface = std::move(part);
@@ -335,23 +348,32 @@ private:
     }
 
     void add_entity_lights() {
-        std::size_t count = 0;
+        std::size_t count = 0, dark = 0;
         for (const BspEntity& entity : bsp_.entities) {
             if (entity.value("classname") != "light") continue;
-            const auto origin = triple_in(entity.value("origin"));
-            if (!origin) continue;
             if (++count > most_entity_lights)
                 throw trace::DataError(fmt::format("{}: entities: found more than {} lights, expected fewer",
                                                    options_.map, most_entity_lights));
+            const auto origin = triple_in(entity.value("origin"));
+            if (!origin) {
+                ++dark;
+                continue;
+            }
             float strength = 300;
             const std::string_view text = entity.value("light");
             std::from_chars(text.data(), text.data() + text.size(), strength);
-            if (!(strength > 0 && strength <= 1e6f)) continue;
+            if (!(strength > 0 && strength <= 1e6f)) {
+                ++dark;
+                continue;
+            }
             Vec3 colour = triple_in(entity.value("_color")).value_or(Vec3{1, 1, 1});
             for (int axis = 0; axis < 3; ++axis) colour[axis] = std::max(colour[axis], 0.0f);
             const float brightest = trace::max_component(colour);
-            if (!(brightest > 0)) continue;
-            ImportedLight& light = result_.scene.lights.emplace_back();
+            if (!(brightest > 0)) {
+                ++dark;
+                continue;
+            }
+            ImportedLight& light = result_.lights.emplace_back();
             light.shape = ImportedLight::Shape::sphere;
             light.center = *origin * metres_a_game_unit;
             light.radius = entity_light_radius;
@@ -359,7 +381,8 @@ private:
             light.power =
                 colour * static_cast<float>(watts_a_light_unit * double{strength} / double{brightest});
         }
-        if (count > 0) note("{} light entities, as small spheres", count);
+        if (count > dark) note("{} light entities, as small spheres", count - dark);
+        if (dark > 0) note("left out: {} light entities without an origin, a strength or a colour", dark);
     }
 
     void add_meshes() {
@@ -370,13 +393,13 @@ private:
             if (group.surface.triangles.empty()) continue;
             to_metres(group.surface);
             const std::uint32_t material = material_of(group.texture);
-            result_.scene.meshes.push_back({material, std::move(group.surface)});
+            result_.meshes.push_back({material, std::move(group.surface)});
         }
-        for (const Material& material : result_.scene.materials) ++kinds[material.kind];
+        for (const Material& material : result_.materials) ++kinds[material.kind];
         note(
             "{} materials: {} diffuse, {} glossy, {} mirrors, {} dielectric; {} without an image, their "
             "colour by name",
-            result_.scene.materials.size(), kinds[MaterialKind::diffuse], kinds[MaterialKind::glossy],
+            result_.materials.size(), kinds[MaterialKind::diffuse], kinds[MaterialKind::glossy],
             kinds[MaterialKind::mirror], kinds[MaterialKind::dielectric], guessed_);
     }
 
@@ -393,9 +416,9 @@ private:
             for (Vec3* point : {&key.position, &key.target}) *point = *point * metres_a_game_unit;
         note("camera path of {} frames, {} keys: {}", tour.frames, tour.keys.size(),
              tour.walks ? "from spawn point to spawn point" : "at the first spawn point, no way leads on");
-        result_.scene.camera = tour.camera;
-        result_.scene.camera_path = std::move(tour.keys);
-        result_.scene.frames = tour.frames;
+        result_.camera = tour.camera;
+        result_.camera_path = std::move(tour.keys);
+        result_.frames = tour.frames;
     }
 
     const Bsp& bsp_;
@@ -408,7 +431,7 @@ private:
     std::vector<std::uint32_t> texture_of_triangle_;
     std::set<std::string> material_names_;
     std::size_t guessed_ = 0;
-    OpenArenaMap result_;
+    ImportedScene result_;
 };
 
 std::string one_line(std::string_view text) {
@@ -444,20 +467,20 @@ std::vector<std::string> openarena_maps(std::span<const std::filesystem::path> a
     return map_names(Pk3Archives(archives));
 }
 
-OpenArenaMap import_openarena(std::span<const std::filesystem::path> archives,
-                              const OpenArenaOptions& options) {
+ImportedScene import_openarena(std::span<const std::filesystem::path> archives,
+                               const OpenArenaOptions& options) {
     if (options.subdivision < 1 || options.subdivision > 32)
         throw trace::UsageError(fmt::format("subdivision: found {}, expected 1 to 32", options.subdivision));
     const Pk3Archives all(archives);
     const std::string entry = entry_of_map(all, options.map);
     const Bsp bsp = read_bsp(all.read(entry, most_map_bytes), all.place(entry));
-    OpenArenaMap result = Importer(all, bsp, options).import(options.map);
+    ImportedScene result = Importer(all, bsp, options).import(options.map);
     const std::string title = bsp.entities.empty() ? "" : one_line(bsp.entities.front().value("message"));
     const std::string author = author_of(all, options.map);
-    result.scene.origin = fmt::format(
-        "OpenArena map {}{}{} from {}", options.map, title.empty() ? "" : fmt::format(" \"{}\"", title),
-        author.empty() ? "" : fmt::format(" by {}", author), all.archive(entry));
-    result.scene.licence =
+    result.origin = fmt::format("OpenArena map {}{}{} from {}", options.map,
+                                title.empty() ? "" : fmt::format(" \"{}\"", title),
+                                author.empty() ? "" : fmt::format(" by {}", author), all.archive(entry));
+    result.licence =
         "GPL-2.0-or-later, as the data of OpenArena (Debian: /usr/share/doc/openarena-081-maps/copyright)";
     return result;
 }

@@ -20,11 +20,6 @@ struct OpenArenaOptions {
     std::uint32_t subdivision = 6;  ///< Steps along each side of a curved patch, 1 to 32.
 };
 
-struct OpenArenaMap {
-    ImportedScene scene;
-    std::vector<std::string> notes;  ///< What was taken, guessed and left out; a line each.
-};
-
 /// Names of the maps in .pk3 archives, sorted, each once.
 std::vector<std::string> openarena_maps(std::span<const std::filesystem::path> archives);
 
@@ -32,7 +27,7 @@ std::vector<std::string> openarena_maps(std::span<const std::filesystem::path> a
 /// trace::UsageError when the map is not named or in none of them (it lists those that are), trace::DataError
 /// for damaged archives, maps, shader scripts and images, maps without a spawn point or with more than four
 /// million triangles.
-OpenArenaMap import_openarena(std::span<const std::filesystem::path> archives,
-                              const OpenArenaOptions& options);
+ImportedScene import_openarena(std::span<const std::filesystem::path> archives,
+                               const OpenArenaOptions& options);
 
 }  // namespace regather::imports

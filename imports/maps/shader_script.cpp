@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -14,6 +15,10 @@ namespace regather::imports {
 using trace::in_quotes;
 
 namespace {
+
+constexpr std::size_t most_names = 100, most_name_bytes = 64;
+constexpr std::array<std::string_view, 7> used_parms{"sky",   "nodraw", "fog",   "water",
+                                                     "slime", "lava",   "portal"};
 
 std::string lower(std::string_view text) {
     std::string result(text);
@@ -156,28 +161,58 @@ private:
         ShaderScript& shader = shaders_.back();
         const std::string key = lower(words[0]);
         const std::string value = words.size() > 1 ? lower(words[1]) : "";
-        if (depth_ == 1) {
-            if (key == "surfaceparm") shader.surface_parms.push_back(value);
-            if (key == "q3map_surfacelight") shader.surface_light = std::clamp(number(words, 1), 0.0, 1e9);
-            if (key == "q3map_lightimage") shader.light_image = value;
-            if (key == "qer_editorimage") shader.editor_image = value;
-            if (key == "q3map_lightrgb") shader.light_colour = colour(words, 1);
-            if (key == "q3map_sun" || key == "sun" || key == "q3map_sunext") {
-                shader.sun_colour = colour(words, 1);
-                shader.sun_intensity = std::clamp(number(words, 4), 0.0, 1e9);
-            }
-            if ((key == "surfaceparm" || key == "sort") && value == "portal") shader.portal = true;
-            return;
+        if (!(depth_ == 1 ? of_surface(shader, key, value, words) : of_stage(shader, key, value, words)))
+            leave_out(shader, key);
+    }
+
+    // False for what is not used.
+    static bool of_surface(ShaderScript& shader, const std::string& key, const std::string& value,
+                           const std::vector<std::string_view>& words) {
+        if ((key == "surfaceparm" || key == "sort") && value == "portal") shader.portal = true;
+        if (key == "surfaceparm") {
+            shader.surface_parms.push_back(value);
+            if (std::find(used_parms.begin(), used_parms.end(), value) == used_parms.end())
+                leave_out(shader, key + " " + value);
+        } else if (key == "q3map_surfacelight") {
+            shader.surface_light = std::clamp(number(words, 1), 0.0, 1e9);
+        } else if (key == "q3map_lightimage") {
+            shader.light_image = value;
+        } else if (key == "qer_editorimage") {
+            shader.editor_image = value;
+        } else if (key == "q3map_lightrgb") {
+            shader.light_colour = colour(words, 1);
+        } else if (key == "q3map_sun" || key == "sun" || key == "q3map_sunext") {
+            shader.sun_colour = colour(words, 1);
+            shader.sun_intensity = std::clamp(number(words, 4), 0.0, 1e9);
+        } else {
+            return key == "sort" && value == "portal";
         }
+        return true;
+    }
+
+    bool of_stage(ShaderScript& shader, const std::string& key, const std::string& value,
+                  const std::vector<std::string_view>& words) const {
         if (key == "map" || key == "clampmap" || key == "animmap") {
             const std::size_t at = key == "animmap" ? 2 : 1;
             if (words.size() > at && shader.map.empty() && !words[at].starts_with('$'))
                 shader.map = lower(words[at]);
+        } else if (key == "tcgen" && value == "environment") {
+            shader.environment = true;
+        } else if (key == "alphafunc") {
+            shader.alpha_tested = true;
+        } else if (key == "blendfunc") {
+            if (stages_ == 1) shader.see_through = value != "filter" && value != "gl_dst_color";
+        } else {
+            return false;
         }
-        if (key == "tcgen" && value == "environment") shader.environment = true;
-        if (key == "alphafunc") shader.alpha_tested = true;
-        if (key == "blendfunc" && stages_ == 1)
-            shader.see_through = value != "filter" && value != "gl_dst_color";
+        return true;
+    }
+
+    static void leave_out(ShaderScript& shader, std::string name) {
+        if (name.size() > most_name_bytes) name.resize(most_name_bytes);
+        if (shader.left_out.size() >= most_names && !shader.left_out.contains(name))
+            name = "other directives";
+        ++shader.left_out[name];
     }
 
     Lines lines_;

@@ -1,8 +1,9 @@
 // imports/maps/shader_script.h -- what the shader scripts of Quake III and OpenArena (scripts/*.shader) say
 // about surfaces, as far as an importer of geometry and light needs it (P. Jaquays & B. Hook, "Quake III
-// Arena Shader Manual", 1999). Keywords are read without regard to case; those that are not named here are
-// passed over, as the engine does.
+// Arena Shader Manual", 1999). Keywords are read without regard to case; those that are not used are counted.
 #pragma once
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,6 +27,8 @@ struct ShaderScript {
     bool see_through = false;   ///< The first stage is blended with what is behind it: flames, beams, glass.
     bool alpha_tested = false;  ///< A stage with alphaFunc: fences, leaves.
     bool portal = false;        ///< surfaceparm or sort portal: a mirror.
+    std::map<std::string, std::uint64_t>
+        left_out;  ///< Directives that nothing above says, in lower case, and how often.
 
     bool has_parm(std::string_view parm) const;
 };

@@ -39,17 +39,6 @@ Vec3 heading(float degrees) {
     return {std::cos(angle), std::sin(angle), 0};
 }
 
-bool is_spawn(std::string_view name) {
-    return name == "info_player_start" || name == "info_player_deathmatch" || name == "info_player_dd" ||
-           name.starts_with("team_CTF_redspawn") || name.starts_with("team_CTF_bluespawn") ||
-           name.starts_with("team_CTF_redplayer") || name.starts_with("team_CTF_blueplayer");
-}
-
-bool is_item(std::string_view name) {
-    return name.starts_with("item_") || name.starts_with("weapon_") || name.starts_with("ammo_") ||
-           name.starts_with("holdable_") || name == "team_CTF_redflag" || name == "team_CTF_blueflag";
-}
-
 struct Step {
     std::size_t to;
     float length;
@@ -259,13 +248,24 @@ void stay(Tour& tour, const Stop& stop, const FreeSpace& space) {
 
 }  // namespace
 
+bool is_spawn_point(std::string_view name) {
+    return name == "info_player_start" || name == "info_player_deathmatch" || name == "info_player_dd" ||
+           name.starts_with("team_CTF_redspawn") || name.starts_with("team_CTF_bluespawn") ||
+           name.starts_with("team_CTF_redplayer") || name.starts_with("team_CTF_blueplayer");
+}
+
+bool is_item(std::string_view name) {
+    return name.starts_with("item_") || name.starts_with("weapon_") || name.starts_with("ammo_") ||
+           name.starts_with("holdable_") || name == "team_CTF_redflag" || name == "team_CTF_blueflag";
+}
+
 std::vector<Stop> stops_of(const Bsp& bsp, const FreeSpace& space) {
     std::vector<Stop> stops;
     for (const bool spawns : {true, false}) {
         for (const BspEntity& entity : bsp.entities) {
             if (stops.size() == most_stops) return stops;
             const std::string_view name = entity.value("classname");
-            if (!(spawns ? is_spawn(name) : is_item(name))) continue;
+            if (!(spawns ? is_spawn_point(name) : is_item(name))) continue;
             const auto origin = triple_in(entity.value("origin"));
             if (!origin) continue;
             const Vec3 above = *origin + Vec3{0, 0, 16};

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "imports/maps/free_space.h"
@@ -19,6 +20,10 @@ struct Stop {
     float heading_degrees = 0;  ///< Of a spawn point: 0 looks along x, 90 along y.
     bool is_spawn = false;
 };
+
+/// Whether entities of a class are spawn points, or things that players fetch.
+bool is_spawn_point(std::string_view entity_class);
+bool is_item(std::string_view entity_class);
 
 /// Stops of a map, spawn points first: the eye is 50 units above the floor below the entity. Those in a solid
 /// are left out, and items beyond the first 200.

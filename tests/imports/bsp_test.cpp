@@ -1,10 +1,12 @@
 #include "imports/maps/bsp.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "imports/maps/entity_keys.h"
 #include "tests/imports/bsp_text.h"
 #include "trace/error.h"
 
@@ -12,6 +14,7 @@ namespace regather::imports {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string refusal(const std::vector<std::uint8_t>& bytes) {
     try {
@@ -65,6 +68,52 @@ TEST(Bsp, LumpsOutsideTheFileAndHalfRecordsAreRefused) {
     EXPECT_THAT(refusal(bytes), HasSubstr("lump of faces: found -104 bytes"));
     bytes = hand_made_map().put(BspText::planes, 0).bytes();
     EXPECT_THAT(refusal(bytes), HasSubstr("lump of planes: found 100 bytes, expected a multiple of 16"));
+}
+
+TEST(Bsp, LumpsThatShareBytesAreRefused) {
+    auto bytes = hand_made_map().bytes();
+    std::int32_t planes = 0;
+    std::memcpy(&planes, &bytes[8 + 8 * BspText::planes], 4);
+    set(bytes, 8 + 8 * BspText::nodes, planes + 16);  // within the six planes of 16 bytes
+    EXPECT_THAT(refusal(bytes),
+                HasSubstr(fmt::format("m.bsp: lump of nodes: found it from byte {} on, expected it behind "
+                                      "the lump of planes, which ends at {}",
+                                      planes + 16, planes + 96)));
+    set(bytes, 8 + 8 * BspText::nodes + 4, 0);  // an empty one may lie anywhere
+    EXPECT_THAT(refusal(bytes), Not(HasSubstr("expected it behind")));
+}
+
+TEST(Bsp, LumpsThatAreNotReadAreCounted) {
+    auto map = hand_made_map();
+    map.put(BspText::effects, std::array<char, 72>{}).put(BspText::leaf_faces, 0, 1, 2);
+    map.put(BspText::light_maps, std::array<std::array<char, 128>, 3 * 128>{});
+    EXPECT_THAT(read_bsp(map.bytes(), "m.bsp").left_out.lines(),
+                ::testing::ElementsAre("left out of the map: fogs 1, leaf faces 3, light maps 1"));
+}
+
+TEST(Bsp, TextOfEntitiesIsBounded) {
+    auto map = hand_made_map();
+    map.text(std::string(17u << 20, ' '));
+    EXPECT_THAT(refusal(map.bytes()), HasSubstr("m.bsp: lump of entities: found 178"));
+}
+
+TEST(EntityKeys, ClassesAndKeysThatAreNotUsedAreCounted) {
+    LeftOut left_out;
+    count_left_out(read_entities(R"({ "classname" "worldspawn" "message" "m" "music" "a.wav" "ambient" "5" }
+        { "classname" "light" "origin" "0 0 0" "light" "300" "_color" "1 1 1" "target" "t1" }
+        { "classname" "light" "origin" "0 0 0" "target" "t1" }
+        { "classname" "info_player_deathmatch" "origin" "0 0 0" "angle" "90" "nobots" "1" }
+        { "classname" "weapon_shotgun" "origin" "0 0 0" "team" "a" } { "classname" "item_quad" "origin" "0 0 0" "team" "b" }
+        { "classname" "func_door" "model" "*1" "origin" "0 0 0" "speed" "100" }
+        { "classname" "target_speaker" "origin" "0 0 0" } { "classname" "target_speaker" } { "origin" "0 0 0" })",
+                                 "m"),
+                   left_out);
+    EXPECT_THAT(left_out.lines(),
+                ::testing::ElementsAre(
+                    "left out of entities: target_speaker 2, without a classname 1",
+                    "left out of entity info_player_deathmatch: nobots 1", "left out of entity items: team 2",
+                    "left out of entity light: target 2", "left out of entity worldspawn: ambient 1, music 1",
+                    "left out of moving parts: speed 1"));
 }
 
 TEST(Bsp, IndicesThatLeadNowhereAreRefused) {

@@ -15,11 +15,37 @@ using ::testing::HasSubstr;
 
 TEST(FurnitureCatalogue, PropertiesAreLatin1WithEscapes) {
     const auto values = read_properties(
-        "# comment\n name = Ren\xe9 \n\ncreator#1=\\u00a9 Ca\\u0301t\nbroken\nmodel#1=/a/b.obj\r\n");
+        "# comment \\\n name = Ren\xe9 \n\ncreator#1=\\u00a9 Ca\\u0301t\n! no = value\nmodel#1=/a/b.obj\r\n",
+        "c");
     EXPECT_EQ(values.size(), 3u);
     EXPECT_EQ(values.at("name"), "Ren\xc3\xa9");
     EXPECT_EQ(values.at("creator#1"), "\xc2\xa9 Ca\xcc\x81t");
     EXPECT_EQ(values.at("model#1"), "/a/b.obj");
+}
+
+TEST(FurnitureCatalogue, PropertiesGoOnInTheNextLineAndAreCutAtTheFirstSeparator) {
+    const auto values = read_properties(
+        "a = one, \\\r\n    two\\\\\nb:three=3\nc four five\nd\\=\\:e=\\\tsix\nalone\nlast=\\", "c");
+    EXPECT_EQ(values, (std::map<std::string, std::string, std::less<>>{{"a", "one, two\\"},
+                                                                       {"b", "three=3"},
+                                                                       {"c", "four five"},
+                                                                       {"d=:e", " six"},
+                                                                       {"alone", ""},
+                                                                       {"last", ""}}));
+    EXPECT_EQ(data_error([] { read_properties("a=1\n\nb=\\u12g4\n", "c.properties"); }),
+              "c.properties: line 3: found \"12g4\", expected four hexadecimal digits after \\u");
+}
+
+TEST(FurnitureCatalogue, KeysThatAreNotUsedAreCounted) {
+    const Scratch scratch;
+    write_zip(scratch / "c.sh3f",
+              {{"PluginFurnitureCatalog.properties",
+                "id=x\nlicense=CC0\nmodel#1=/a.obj\nmodel#2=/b.obj\nname#1=A\nname#2=B\nicon#1=/i.png\n"}});
+    const FurnitureCatalogue catalogue(scratch / "c.sh3f");
+    LeftOut left_out;
+    catalogue.count_left_out(left_out);
+    EXPECT_EQ(catalogue.models(), 2u);
+    EXPECT_THAT(left_out.lines(), ::testing::ElementsAre("left out of catalogues: icon# 1, id 1, name# 2"));
 }
 
 TEST(FurnitureCatalogue, TheCreatorIsFoundByTheModel) {

@@ -75,8 +75,8 @@ std::string tga(unsigned char r, unsigned char g, unsigned char b) {
 TEST_F(OpenArena, AHandMadeMapBecomesAScene) {
     const auto file = archive("a.pk3", {{"maps/Hand.bsp", map_text(hand_made_map())},
                                         {"textures/x/stone_floor.tga", tga(188, 0, 0)}});
-    const OpenArenaMap map = import_openarena(std::vector{file}, {.map = "hand", .subdivision = 2});
-    const ImportedScene& scene = map.scene;
+    const ImportedScene map = import_openarena(std::vector{file}, {.map = "hand", .subdivision = 2});
+    const ImportedScene& scene = map;
     EXPECT_EQ(scene.triangle_count(), 2u + 8u);  // The lamp is a light.
     ASSERT_EQ(scene.materials.size(), 3u);
     const auto& floor = *std::find_if(scene.materials.begin(), scene.materials.end(),
@@ -108,13 +108,13 @@ TEST_F(OpenArena, AHandMadeMapBecomesAScene) {
 
 TEST_F(OpenArena, TheSceneFileLoadsWithTheSameCounts) {
     const auto file = archive("a.pk3", {{"maps/hand.bsp", map_text(hand_made_map())}});
-    const OpenArenaMap map = import_openarena(std::vector{file}, {.map = "hand"});
-    write_scene(map.scene, folder_ / "scene");
+    const ImportedScene map = import_openarena(std::vector{file}, {.map = "hand"});
+    write_scene(map, folder_ / "scene");
     const Scene scene = scenes::load_scene((folder_ / "scene" / "scene.json").string());
-    EXPECT_EQ(scene.triangles.size(), map.scene.triangle_count() + 2);
+    EXPECT_EQ(scene.triangles.size(), map.triangle_count() + 2);
     EXPECT_EQ(scene.lights.size(), 1u);
-    EXPECT_EQ(scene.frames, map.scene.frames);
-    EXPECT_EQ(scene.licence, map.scene.licence);
+    EXPECT_EQ(scene.frames, map.frames);
+    EXPECT_EQ(scene.licence, map.licence);
 }
 
 TEST_F(OpenArena, ScriptsDecideOverNamesAndLastArchivesOverFirst) {
@@ -124,7 +124,7 @@ TEST_F(OpenArena, ScriptsDecideOverNamesAndLastArchivesOverFirst) {
     const auto second =
         archive("b.pk3", {{"scripts/X.shader", "textures/x/lamp_2k { q3map_surfacelight 51 }"}});
     const auto lamp = [&](const std::vector<fs::path>& files) {
-        return trace::max_component(import_openarena(files, {.map = "hand"}).scene.lights.at(0).radiance);
+        return trace::max_component(import_openarena(files, {.map = "hand"}).lights.at(0).radiance);
     };
     EXPECT_NEAR(lamp({first}), 100 * 3.0 / 255, 1e-5);
     EXPECT_NEAR(lamp({first, second}), 51 * 3.0 / 255, 1e-5);
@@ -137,7 +137,7 @@ TEST_F(OpenArena, FogTriggersFencesAndEffectsAreLeftOut) {
     for (std::int32_t texture = 3; texture < 8; ++texture) map.face(texture, 1, 0, 4, 0, 6);
     map.model(4, 5);
     const auto file = archive("a.pk3", {{"maps/hand.bsp", map_text(map)}});
-    EXPECT_EQ(import_openarena(std::vector{file}, {.map = "hand", .subdivision = 1}).scene.triangle_count(),
+    EXPECT_EQ(import_openarena(std::vector{file}, {.map = "hand", .subdivision = 1}).triangle_count(),
               2u + 2u);
 }
 
@@ -147,7 +147,7 @@ TEST_F(OpenArena, MovingPartsStandAtTheirEntitysOrigin) {
         .model(4, 1)
         .text("{\"classname\" \"func_door\" \"model\" \"*1\" \"origin\" \"0 0 320\"}");
     const auto file = archive("a.pk3", {{"maps/hand.bsp", map_text(map)}});
-    const auto scene = import_openarena(std::vector{file}, {.map = "hand"}).scene;
+    const auto scene = import_openarena(std::vector{file}, {.map = "hand"});
     float highest = 0;
     for (const ImportedMesh& mesh : scene.meshes)
         for (const Vec3 p : mesh.surface.vertices) highest = std::max(highest, p.z);
@@ -160,7 +160,7 @@ TEST_F(OpenArena, ALightEntityLightsAsTheMapCompilerSays) {
     BspText map = hand_made_map();
     map.text("{\"classname\" \"light\" \"origin\" \"0 0 100\" \"light\" \"300\" \"_color\" \"1 0.5 0\"}");
     const auto file = archive("a.pk3", {{"maps/hand.bsp", map_text(map)}});
-    const auto scene = import_openarena(std::vector{file}, {.map = "hand"}).scene;
+    const auto scene = import_openarena(std::vector{file}, {.map = "hand"});
     ASSERT_EQ(scene.lights.size(), 2u);
     const double distance = 100.0 / 32,
                  irradiance = double{scene.lights[1].power.x} / (4 * std::numbers::pi * distance * distance);
@@ -277,16 +277,16 @@ class RealMaps : public ::testing::TestWithParam<RealMap> {};
 TEST_P(RealMaps, HasTheTrianglesLightsAndAPathThatNeverLeavesTheOpen) {
     const fs::path file = fs::path("/usr/share/games/openarena/baseoa") / GetParam().archive;
     if (!fs::exists(file)) GTEST_SKIP() << "skipped: package " << GetParam().package << " is not installed";
-    const OpenArenaMap map = import_openarena(std::vector{file}, {.map = GetParam().map});
-    EXPECT_GE(map.scene.triangle_count(), GetParam().fewest);
-    EXPECT_LE(map.scene.triangle_count(), GetParam().most);
-    EXPECT_GE(map.scene.lights.size(), 1u);
-    EXPECT_LE(map.scene.lights.size(), 200u);
-    ASSERT_GE(map.scene.frames, 30u);
+    const ImportedScene map = import_openarena(std::vector{file}, {.map = GetParam().map});
+    EXPECT_GE(map.triangle_count(), GetParam().fewest);
+    EXPECT_LE(map.triangle_count(), GetParam().most);
+    EXPECT_GE(map.lights.size(), 1u);
+    EXPECT_LE(map.lights.size(), 200u);
+    ASSERT_GE(map.frames, 30u);
     Scene scene;
-    scene.camera = map.scene.camera;
-    scene.camera_path = map.scene.camera_path;
-    scene.frames = map.scene.frames;
+    scene.camera = map.camera;
+    scene.camera_path = map.camera_path;
+    scene.frames = map.frames;
     const std::string entry = std::string("maps/") + GetParam().map + ".bsp";
     const Bsp bsp = read_bsp(Zip::open(file).read(entry, 1 << 28), entry);
     const FreeSpace space(bsp, {});

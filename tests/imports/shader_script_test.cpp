@@ -13,6 +13,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Pair;
 
 TEST(ShaderScript, SurfaceLightSunImagesAndStagesAreRead) {
     const auto shaders = read_shader_scripts(R"(// a lamp
@@ -65,6 +66,32 @@ TEST(ShaderScript, WhatIsNoNumberCountsAsZero) {
             read_shader_scripts(std::string("a {\nq3map_surfacelight ") + value + "\n}", "s");
         EXPECT_EQ(shaders.at(0).surface_light, 0) << value;
     }
+}
+
+TEST(ShaderScript, DirectivesThatAreNotUsedAreCounted) {
+    const auto shaders = read_shader_scripts(R"(a {
+    surfaceparm NoMarks
+    surfaceparm sky
+    cull none
+    deformVertexes wave 1
+    deformVertexes wave 2
+    sort additive
+    { map a.tga
+      tcMod scroll 1 1
+      tcGen lightmap }
+    { map b.tga
+      tcGen environment
+      tcmod rotate 3 }
+})",
+                                             "s");
+    EXPECT_THAT(shaders.at(0).left_out,
+                ElementsAre(Pair("cull", 1), Pair("deformvertexes", 2), Pair("sort", 1),
+                            Pair("surfaceparm nomarks", 1), Pair("tcgen", 1), Pair("tcmod", 2)));
+    std::string many = "a {\n";
+    for (int i = 0; i < 300; ++i) many += "d" + std::to_string(i) + "\n";
+    const auto bounded = read_shader_scripts(many + "}", "s");
+    EXPECT_EQ(bounded.at(0).left_out.size(), 101u);
+    EXPECT_EQ(bounded.at(0).left_out.at("other directives"), 200u);
 }
 
 TEST(ShaderScript, MissingAndSurplusBracesAreRefusedWithTheirLine) {

@@ -48,7 +48,8 @@ double volume(const Surface& surface) {
 WallHole door(double from, double to, double low, double high, double y = 0, double depth = 20) {
     return {{PlanPoint{from, y - depth / 2}, {to, y - depth / 2}, {to, y + depth / 2}, {from, y + depth / 2}},
             low,
-            high};
+            high,
+            {}};
 }
 
 TEST(Wall, AWallIsAClosedBoxOfItsSize) {
@@ -140,6 +141,42 @@ TEST(Wall, ASlopingTopAndAnArcHaveTheirVolumes) {
     const Surface half = joined(extrude(arc, wall_outlines({&arc, 1})[0], 0, {}));
     const double ring = std::numbers::pi / 2 * (1.05 * 1.05 - 0.95 * 0.95) * 2.5;
     EXPECT_NEAR(volume(half), ring, 0.02 * ring);  // of chords
+}
+
+TEST(Wall, AnArcOfEitherSignHasItsLeftOnTheLeftHand) {
+    // A chord of 2 m and an arc of 60 degrees: the radius is 2 m, the centre 173.205 cm off the chord. A
+    // positive arc has it at larger y, on the right hand of who walks along x (y is down), and bulges to
+    // smaller y; a negative one the other way.
+    for (const double sign : {1.0, -1.0}) {
+        HomeWall arc = wall("a", {-100, 0}, {100, 0});
+        arc.arc_extent = sign * std::numbers::pi / 3;
+        const WallOutline outline = wall_outlines({&arc, 1})[0];
+        ASSERT_EQ(outline.left.size(), 7u);
+        EXPECT_NEAR(outline.left[3].x, 0, 1e-9);
+        EXPECT_NEAR(outline.left[3].y, sign > 0 ? 173.2050808 - 205 : 195 - 173.2050808, 1e-6);
+        EXPECT_NEAR(outline.right[3].y, sign > 0 ? 173.2050808 - 195 : 205 - 173.2050808, 1e-6);
+        // The ends lie on the radius, 30 degrees off the chord's normal: half a thickness from the wall's
+        // end.
+        EXPECT_NEAR(outline.left[0].x, -100 - sign * 2.5, 1e-6);
+        EXPECT_NEAR(outline.left[6].x, 100 + sign * 2.5, 1e-6);
+        const Surface surface = joined(extrude(arc, outline, 0, {}));
+        EXPECT_TRUE(is_closed(surface));
+        // Six chords of 10 degrees: sectors of radius R have the area R^2 sin(10) / 2 each.
+        EXPECT_NEAR(volume(surface),
+                    6 * 0.5 * std::sin(std::numbers::pi / 18) * (2.05 * 2.05 - 1.95 * 1.95) * 2.5, 1e-5);
+    }
+}
+
+TEST(Wall, ADoorCutsFromAQuarterOfTheThicknessOn) {
+    const HomeWall w = wall("a", {0, 0}, {400, 0});  // from y = -5 to 5
+    const auto volume_with = [&](double y) {
+        const WallHole hole = door(100, 200, 0, 200, y);
+        return volume(joined(extrude(w, wall_outlines({&w, 1})[0], 0, {&hole, 1})));
+    };
+    EXPECT_NEAR(volume_with(13), 1, 1e-5);  // from y = 3: a fifth
+    EXPECT_NEAR(volume_with(-13), 1, 1e-5);
+    EXPECT_NEAR(volume_with(12), 1 - 0.2, 1e-5);  // from y = 2: three tenths
+    EXPECT_NEAR(volume_with(-12), 1 - 0.2, 1e-5);
 }
 
 TEST(Wall, WallsWithoutLengthOrThicknessGiveNothing) {
