@@ -62,6 +62,21 @@ Material own(const meshes::Material& read) {
     return scenes::material_of(read);
 }
 
+// Those of the mesh; of the materials that no library describes only those that Java 3D does not describe
+// either.
+std::vector<std::string> notes_of(const meshes::Mesh& mesh) {
+    constexpr std::string_view grey = "materials that no library describes are grey";
+    std::vector<std::string> notes;
+    for (const std::string& note : mesh.notes)
+        if (!note.starts_with(grey)) notes.push_back(note);
+    const auto count =
+        std::count_if(mesh.materials.begin(), mesh.materials.end(), [](const meshes::Material& m) {
+            return !m.is_described && java3d_material(m.name) == nullptr && special_group(m.name).empty();
+        });
+    if (count > 0) notes.push_back(fmt::format("{}: {}", grey, count));
+    return notes;
+}
+
 }  // namespace
 
 Model read_model(const Zip& zip, const std::string& name) {
@@ -96,7 +111,7 @@ Model read_model(const Zip& zip, const std::string& name) {
             !special.empty())
             tags[t] = materials + (special == pane_material ? 0 : 1);
     Model model;
-    model.notes = mesh.notes;
+    model.notes = notes_of(mesh);
     if (!mesh.missing_libraries.empty())
         model.notes.push_back(
             fmt::format("material libraries (mtllib) that are not there: {}", mesh.missing_libraries.size()));

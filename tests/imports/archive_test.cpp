@@ -74,6 +74,33 @@ TEST(Zip, AnEntryThatDeclaresLessThanItHoldsIsNotReadToItsEnd) {
     EXPECT_NE(data_error([&] { zip.read("bomb", 1000); }), "");
 }
 
+TEST(Zip, TheStartOfAnEntryIsReadAlone) {
+    const Scratch scratch;
+    write_zip(scratch / "a.zip", {{"long", "0123456789" + std::string(5'000'000, 'x')}, {"short", "abc"}});
+    const Zip zip = Zip::open(scratch / "a.zip");
+    EXPECT_EQ(text(zip.read_start("long", 10)), "0123456789");
+    EXPECT_EQ(text(zip.read_start("short", 10)), "abc");
+    EXPECT_THAT(data_error([&] { zip.read_start("gone", 10); }),
+                HasSubstr("a.zip: gone: found no such entry"));
+}
+
+TEST(SlowZip, MoreThanFourGibibytesInAllAreRefused) {
+    const Scratch scratch;
+    write_zip(scratch / "a.zip", {{"half", std::string(std::size_t{256} << 20, 'x')}});  // 250 kB of zip
+    const Zip zip = Zip::open(scratch / "a.zip");
+    for (int i = 0; i < 16; ++i) zip.read("half", 256 << 20);
+    EXPECT_THAT(data_error([&] { zip.read("half", 256 << 20); }),
+                HasSubstr("bytes with the entries before, expected at most 4294967296"));
+}
+
+TEST(Zip, NamesOfEntriesAreShownEscaped) {
+    const Scratch scratch;
+    write_zip(scratch / "a.zip", {{"a", "x"}});
+    const Zip zip = Zip::open(scratch / "a.zip");
+    EXPECT_THAT(data_error([&] { zip.read("b\n\x1b[2J", 10); }),
+                HasSubstr("a.zip: b\\n\\x1b[2J: found no such entry"));
+}
+
 TEST(Zip, DamageIsFoundByTheChecksum) {
     const Scratch scratch;
     write_zip(scratch / "a.zip", {{"stored", "incompressible?"}});
@@ -81,7 +108,7 @@ TEST(Zip, DamageIsFoundByTheChecksum) {
     bytes.at(30 + 6 + 4) ^= 1;  // after the local header and the name
     const Zip zip = Zip::from_bytes(std::move(bytes), "a.zip");
     EXPECT_THAT(data_error([&] { zip.read("stored", 1000); }),
-                HasSubstr("a.zip: stored: found damaged data"));
+                HasSubstr("a.zip: stored: found damaged data (bytes whose checksum is another one)"));
 }
 
 TEST(Zip, EveryCutOfAnArchiveIsRefusedOrWhole) {
@@ -103,7 +130,7 @@ TEST(Zip, WhatIsNoArchiveIsRefusedByName) {
     const Scratch scratch;
     trace::write_whole(scratch / "a.zip", "plain text, and long enough to be looked at twice");
     EXPECT_THAT(data_error([&] { Zip::open(scratch / "a.zip"); }),
-                HasSubstr("a.zip: found no sound zip archive"));
+                HasSubstr("a.zip: found no sound zip archive (no directory of entries), expected one"));
     EXPECT_THAT(data_error([&] { Zip::open(scratch / "missing.zip"); }),
                 HasSubstr("missing.zip: found no file"));
     EXPECT_THAT(data_error([&] { Zip::open(scratch.path()); }), HasSubstr("found no file"));

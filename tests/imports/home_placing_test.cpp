@@ -284,6 +284,7 @@ TEST_F(HomeLeftOut, NamesOfTheFileAreCutAndEscaped) {
     HomeText text;
     text.rest = "<evil\xc2\x9b" + std::string(1000, 'x') + "/>";
     EXPECT_THAT(notes(text.text()), HasSubstr("left out of home: <evil\\u{9b}xxxx"));
+    EXPECT_THAT(notes(text.text()), HasSubstr("xxx... 1\n"));
     EXPECT_LT(notes(text.text()).size(), 100u);
 }
 

@@ -123,7 +123,8 @@ TEST(ImportMesh, MaterialsAreTheFilesAndTheSceneLoads) {
 TEST(ImportMesh, NonsenseIsRefused) {
     const Scratch scratch;
     trace::write_whole(scratch / "m.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n");
-    EXPECT_THAT(data_error([&] { import_mesh(scratch / "m.obj"); }), HasSubstr("m.obj: found"));
+    EXPECT_THAT(data_error([&] { import_mesh(scratch / "m.obj"); }),
+                HasSubstr("m.obj: line 3: found the vertex 9"));
     EXPECT_THAT(data_error([&] { import_mesh(scratch / "gone.ply"); }), HasSubstr("gone.ply: found no file"));
     trace::write_whole(scratch / "m.obj", model);
     EXPECT_THROW(import_mesh(scratch / "m.obj", {.size = 0}), trace::UsageError);

@@ -165,8 +165,9 @@ TEST_F(Sweethome, AModelThatIsDamagedOrLeavesItsFolderIsRefused) {
         write_zip(scratch_ / "t.sh3d", {{"Home.xml", HomeText{}.text()}, {"m/wedge.obj", model}});
         return data_error([&] { import_sweethome3d(scratch_ / "t.sh3d", ""); });
     };
-    EXPECT_THAT(with_model("v 0 0 0\nf 1 2 3\n"), HasSubstr("t.sh3d: m/wedge.obj: found"));
-    EXPECT_THAT(with_model("v nan 0 0\n"), HasSubstr("t.sh3d: m/wedge.obj: found"));
+    EXPECT_THAT(with_model("v 0 0 0\nf 1 2 3\n"),
+                HasSubstr("t.sh3d: m/wedge.obj: line 2: found the vertex 3"));
+    EXPECT_THAT(with_model("v nan 0 0\n"), HasSubstr("t.sh3d: m/wedge.obj: line 1: found \"nan\""));
     EXPECT_THAT(with_model(""), HasSubstr("t.sh3d: m/wedge.obj: found"));
     EXPECT_THAT(with_model("mtllib ../../../etc/passwd\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
                 HasSubstr("expected one beside the model"));

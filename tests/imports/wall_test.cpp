@@ -10,7 +10,7 @@
 
 namespace regather::imports {
 
-using scenes::as_solid;
+using meshes::as_solid;
 using scenes::Box;
 using scenes::Quad;
 using scenes::Sphere;
