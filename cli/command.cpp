@@ -147,8 +147,10 @@ std::string explained(const CLI::App& app, const CLI::ParseError& error) {
     const std::string_view text = error.what();
     const std::string name(text.substr(0, text.find_first_of(": ")));
     const CLI::Option* option = app.get_option_no_throw(name);
+    if (!option) option = app.get_option_no_throw("--" + name);
     if (!option) return fmt::format("{}: not understood", name);
-    if (option->get_items_expected_max() == 0) return fmt::format("{}: found a value, expected none", name);
+    if (option->get_items_expected_max() == 0)
+        return fmt::format("{}: found a value, expected none", option->get_name());
     if (option->count() > 1) return fmt::format("{}: found {} times, expected once", name, option->count());
     return fmt::format("{}: found nothing behind it, expected {}", name, option->get_type_name());
 }

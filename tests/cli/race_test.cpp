@@ -158,6 +158,30 @@ TEST(Race, ADamagedTraceIsRefused) {
     expect_refused(bad_data, {"race", trace.string()}, {"photon.npy"});
 }
 
+TEST(Race, ACausticTraceIsSearchedWithItsOwnRadius) {
+    const Scratch scratch;
+    const std::string folder = (scratch / "out").string();
+    expect_done({"capture", "caustics", "-o", folder, "--width", "12", "--height", "8", "--gather-rays", "4",
+                 "--photons", "2000", "--caustic-photons", "3000", "--radius", "5", "--caustic-radius",
+                 "0.02"});
+    // The searches must find as many photons as those of the capture did, or the race is refused.
+    for (const char* trace : {"/trace", "/caustic-trace"})
+        expect_done({"race", folder + trace, "--order", "naive", "--repeats", "1"});
+}
+
+TEST(Race, AWrongCountInTheTraceIsBadData) {
+    const Scratch scratch;
+    const fs::path trace = copied_trace(scratch);
+    const std::uint64_t found = trace::TraceReader(trace).info().found_photons;
+    std::string text = content(trace / "trace.json");
+    const std::string before = "\"found_photons\": " + std::to_string(found);
+    ASSERT_NE(text.find(before), std::string::npos);
+    write(trace / "trace.json",
+          text.replace(text.find(before), before.size(), "\"found_photons\": " + std::to_string(found - 1)));
+    expect_refused(bad_data, {"race", trace.string(), "--order", "naive", "--repeats", "1"},
+                   {"trace.json", "found_photons", std::to_string(found - 1), std::to_string(found)});
+}
+
 struct Line {
     std::vector<trace::Photon> heap;
     std::vector<trace::Vec3> position;

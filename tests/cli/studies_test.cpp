@@ -77,6 +77,18 @@ TEST(Heatmap, HoldsOneChannelAnOrderingWithTheReplaysBytes) {
                    {"one cache"});
 }
 
+TEST(Heatmap, AnImageWithTooManyPixelsIsBadDataBeforeAnythingIsReplayed) {
+    const Scratch scratch;
+    const fs::path trace = copied_trace(scratch);
+    std::string text = content(trace / "trace.json");
+    const std::string before = "\"image_width\": 16";
+    ASSERT_NE(text.find(before), std::string::npos);
+    write(trace / "trace.json", text.replace(text.find(before), before.size(), "\"image_width\": 50000000"));
+    expect_refused(bad_data, {"heatmap", trace.string(), "-o", (scratch / "out").string()},
+                   {"trace.json", "50000000 x 16", "at most 67108864 pixels"});
+    EXPECT_FALSE(fs::exists(scratch / "out"));
+}
+
 TEST(Frames, EachHasItsFolderAndTheRowsSayWhich) {
     const Scratch scratch;
     const Words small{"--width",   "8",    "--height",          "8",  "--gather-rays", "4",
