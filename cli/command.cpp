@@ -120,7 +120,7 @@ CLI::Option* add_several(CLI::App& app, std::string_view names, std::string_view
             return true;
         },
         std::string(help));
-    option->type_name(type)->expected(1, CLI::detail::expected_max_vector_size);
+    option->type_name(type)->expected(1, CLI::detail::expected_max_vector_size)->allow_extra_args();
     if (!fallback.empty()) option->default_str(fallback);
     return option;
 }
@@ -139,10 +139,13 @@ std::string unexpected(const CLI::App& app, const std::string& word) {
 
 /// What is wrong, in our words.
 std::string explained(const CLI::App& app, const CLI::ParseError& error) {
-    if (const Words left = app.remaining(); !left.empty()) return unexpected(app, left.front());
-    for (const CLI::Option* option : app.get_options())
-        if (option->get_required() && option->count() == 0)
-            return fmt::format("{}: found nothing, expected it: it is required", option->get_name());
+    const bool missing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+    if (missing || dynamic_cast<const CLI::ExtrasError*>(&error))
+        if (const Words left = app.remaining(); !left.empty()) return unexpected(app, left.front());
+    if (missing)
+        for (const CLI::Option* option : app.get_options())
+            if (option->get_required() && option->count() == 0)
+                return fmt::format("{}: found nothing, expected it: it is required", option->get_name());
     // Its text begins with the option's name.
     const std::string_view text = error.what();
     const std::string name(text.substr(0, text.find_first_of(": ")));

@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "cachesim/cache_list.h"
 #include "capture/capture.h"
 #include "experiment/measurement.h"
-#include "scenes/catalogue.h"
+#include "scenes/loader.h"
 #include "tests/scratch.h"
 
 namespace regather::experiment {
@@ -29,7 +30,7 @@ TEST(Locality, HilbertMovesFewerBytesThanNaiveAndNaiveFewerThanRandom) {
     const Orderings orderings = parse_orderings(specs);
     const auto nobody = [](std::uint64_t) {};
     Measurement measurement(trace, orderings.reads, 1 << 20);
-    const auto caches = parse_caches("16K:128:8");
+    const auto caches = cachesim::parse_caches("16K:128:8");
     measurement.prepare(caches, {}, nobody);
     measurement.find_compulsory(std::vector<std::uint32_t>{128});
     std::vector<double> traffic;
