@@ -63,6 +63,9 @@ private:
         const std::string head = first_bytes(name, 4096);
         for (const trace::ColumnType* type : types)
             if (head.find(type->descr) != std::string::npos) return *type;
+        for (const trace::ColumnType* type : types)  // MappedColumn takes int64 for it
+            if (type == &trace::column_type<std::uint64_t>() && head.find("'<i8'") != std::string::npos)
+                return *type;
         if (types.size() == 1 || !head.starts_with(npy_magic)) return *types.front();
         std::string readable;
         for (const trace::ColumnType* type : types)

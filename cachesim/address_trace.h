@@ -1,7 +1,7 @@
 // cachesim/address_trace.h -- the address trace that a user brings, read as a stream of batches: memory does
 // not grow with the number of records. Two formats, told apart by the first bytes of the file:
-//   .npy: a column of uint64 byte addresses; beside it, if given, a column of sizes [bytes] (uint8, uint32 or
-//   uint64) and
+//   .npy: a column of uint64 (or int64, none negative) byte addresses; beside it, if given, a column of sizes
+//   [bytes] (uint8, uint32 or uint64) and
 //         one of writes (uint8 or bool; 0 read, 1 write). Without them every record reads 1 byte.
 //   din:  the traditional format of Dinero III and IV (Edler, Hill), as text: a label and a hexadecimal
 //   address a line. As

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "trace/error.h"
+#include "trace/file.h"
 #include "trace/word.h"
 
 namespace regather::cachesim {
@@ -16,26 +16,7 @@ extern const char cpu_sapphire_rapids[];
 extern const char gpu_a100[];
 }  // namespace embedded
 
-namespace {
-
-constexpr std::size_t most_file_bytes = 1 << 20;
-
-// At most one byte more than a machine file may have, so that a wrong or endless file costs nothing.
-std::string read_bounded(const std::string& path) {
-    std::error_code error;
-    std::ifstream file(path, std::ios::binary);
-    if (!file || std::filesystem::is_directory(path, error))
-        throw trace::DataError(fmt::format("{}: cannot be read", path));
-    std::string text(most_file_bytes + 1, '\0');
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(file.gcount()));
-    if (text.size() > most_file_bytes)
-        throw trace::DataError(
-            fmt::format("{}: found more than {} bytes, expected a machine file", path, most_file_bytes));
-    return text;
-}
-
-}  // namespace
+constexpr std::uint64_t most_machine_bytes = 1 << 20;
 
 std::span<const EmbeddedMachine> machine_catalogue() {
     static const EmbeddedMachine rows[] = {
@@ -60,7 +41,7 @@ Machine load_machine(std::string_view name_or_path) {
         throw trace::UsageError(fmt::format(
             "found the unknown machine '{}', expected {} or a file (known: {})", name_or_path,
             trace::alternatives(trace::nearest_words(name_or_path, names)), trace::listed(names)));
-    return parse_machine(read_bounded(path), path);
+    return parse_machine(trace::read_file(path, most_machine_bytes), path);
 }
 
 }  // namespace regather::cachesim

@@ -30,17 +30,19 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-nlohmann::json length_of(float radius) {
-    return std::isfinite(radius) ? nlohmann::json(radius) : nlohmann::json(nullptr);  // JSON has no infinity
+trace::Json length_of(float radius) {
+    return std::isfinite(radius) ? trace::Json(radius) : trace::Json();  // JSON has no infinity
 }
 
-nlohmann::json counts_of(const PhotonTally& tally) {
-    return {{"photon_paths", tally.paths},
-
-            {"emitted_watts", tally.emitted}, {"reflected_watts", tally.reflected},
-            {"stored_watts", tally.stored},   {"not_stored_watts", tally.not_stored},
-            {"escaped_watts", tally.escaped}, {"absorbed_by_specular_watts", tally.absorbed_by_specular},
-            {"cut_off_watts", tally.cut_off}};
+trace::Json counts_of(const PhotonTally& tally) {
+    return trace::Json::object({{"photon_paths", tally.paths},
+                                {"emitted_watts", tally.emitted},
+                                {"reflected_watts", tally.reflected},
+                                {"stored_watts", tally.stored},
+                                {"not_stored_watts", tally.not_stored},
+                                {"escaped_watts", tally.escaped},
+                                {"absorbed_by_specular_watts", tally.absorbed_by_specular},
+                                {"cut_off_watts", tally.cut_off}});
 }
 
 /// A photon map: its photons in heap order, what its searches have found, and its trace.
@@ -87,30 +89,32 @@ void check(const CaptureConfig& config) {
 
 }  // namespace
 
-nlohmann::json parameters(const Scene& scene, const CaptureConfig& config) {
+trace::Json parameters(const Scene& scene, const CaptureConfig& config) {
     const QueryConfig& pixels = config.pixels;
-    nlohmann::json all{{"width", pixels.width},
-                       {"height", pixels.height},
-                       {"samples", pixels.samples},
-                       {"jitter", pixels.jitter},
-                       {"visualisation", visualisation_names[static_cast<std::size_t>(pixels.visualisation)]},
-                       {"gather_rays", pixels.gather_rays},
-                       {"shadow_rays", pixels.shadow_rays},
-                       {"max_specular", pixels.max_specular},
-                       {"photons", config.photon.photons},
-                       {"k", config.gather.k},
-                       {"radius", length_of(config.gather.radius)},
-                       {"filter", filter_names[static_cast<std::size_t>(config.gather.filter)]},
-                       {"surface_check", config.gather.surface_check},
-                       {"seed", pixels.seed},
-                       {"scene_checksum", checksum(scene)}};
+    trace::Json all = trace::Json::object(
+        {{"width", pixels.width},
+         {"height", pixels.height},
+         {"samples", pixels.samples},
+         {"jitter", pixels.jitter},
+         {"visualisation", visualisation_names[static_cast<std::size_t>(pixels.visualisation)]},
+         {"gather_rays", pixels.gather_rays},
+         {"shadow_rays", pixels.shadow_rays},
+         {"max_specular", pixels.max_specular},
+         {"photons", config.photon.photons},
+         {"k", config.gather.k},
+         {"radius", length_of(config.gather.radius)},
+         {"filter", filter_names[static_cast<std::size_t>(config.gather.filter)]},
+         {"surface_check", config.gather.surface_check},
+         {"seed", pixels.seed},
+         {"scene_checksum", checksum(scene)}});
     if (config.frame) all["frame"] = *config.frame;
     if (!config.keep.empty()) all["keep"] = config.keep;
     if (has_caustic_map(scene, config))
-        all["caustic"] = {{"photons", config.caustic.photons},
-                          {"k", config.caustic.k},
-                          {"radius", length_of(config.caustic.radius)},
-                          {"filter", filter_names[static_cast<std::size_t>(config.caustic.filter)]}};
+        all["caustic"] =
+            trace::Json::object({{"photons", config.caustic.photons},
+                                 {"k", config.caustic.k},
+                                 {"radius", length_of(config.caustic.radius)},
+                                 {"filter", filter_names[static_cast<std::size_t>(config.caustic.filter)]}});
     return all;
 }
 
@@ -217,7 +221,10 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         for (std::size_t stage = 0; stage < stage_count; ++stage)
             info.counts[fmt::format("nonfinite_{}", stage_names[stage])] =
                 result.nonfinite.of(static_cast<Stage>(stage));
-        if (map.columns) info.left_out = map.columns->left_out();
+        if (map.columns) {
+            info.left_out = map.columns->left_out();
+            map.columns->count_leaves(info.counts);
+        }
         return info;
     };
     result.info = finish(global, "global");

@@ -61,7 +61,7 @@ std::string checksum(const Scene& scene);
 
 /// What a capture's trace.json says under "parameters": two captures with equal parameters have equal
 /// columns.
-nlohmann::json parameters(const Scene& scene, const CaptureConfig& config);
+trace::Json parameters(const Scene& scene, const CaptureConfig& config);
 
 /// Whether a capture builds a caustic map: the scene needs one or is made to keep one, and its photons are
 /// asked for. Without it, gather rays find what lights send by way of specular surfaces.

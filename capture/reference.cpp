@@ -5,21 +5,23 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
-#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "trace/error.h"
+#include "trace/field.h"
+#include "trace/file.h"
 #include "trace/npy.h"
+#include "trace/text.h"
 
 namespace regather::capture {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
+using trace::Field, trace::Json, trace::Kind;
 
 constexpr int schema_version = 1;
+constexpr std::uint64_t most_state_bytes = 1 << 20;
 constexpr std::uint32_t most_pixels = 32768;  // along an edge
 const char* const state_name = "reference.json";
 
@@ -32,53 +34,44 @@ std::string hexadecimal(std::uint64_t number) {
     return fmt::format("{:016x}", number);
 }
 
-/// The fields of reference.json, with one line for each that is not what it should be.
-class State {
-public:
-    explicit State(fs::path path) : path_(std::move(path)) {
-        std::ifstream file(path_);
-        if (!file)
-            throw trace::DataError(fmt::format(
-                "{}: cannot be opened; is this a folder that regather reference wrote?", path_.string()));
-        const std::string text{std::istreambuf_iterator<char>(file), {}};
-        root_ = json::parse(text, nullptr, false);
-        if (!root_.is_object())
-            throw trace::DataError(fmt::format("{}: found no JSON object", path_.string()));
-    }
-    std::uint64_t number(const char* field, std::uint64_t least, std::uint64_t most) const {
-        const json& value = at(field);
-        if (!value.is_number_unsigned() || value.get<std::uint64_t>() < least ||
-            value.get<std::uint64_t>() > most)
-            fail(field, value, fmt::format("a whole number from {} to {}", least, most));
-        return value.get<std::uint64_t>();
-    }
-    double seconds(const char* field) const {
-        const json& value = at(field);
-        if (!value.is_number() || !(value.get<double>() >= 0) || !std::isfinite(value.get<double>()))
-            fail(field, value, "a number of seconds");
-        return value.get<double>();
-    }
-    std::string text(const char* field) const {
-        const json& value = at(field);
-        if (!value.is_string()) fail(field, value, "a text");
-        return value.get<std::string>();
-    }
-    [[noreturn]] void fail(const char* field, const json& found, const std::string& expected) const {
-        throw trace::DataError(
-            fmt::format("{}: {}: found {}, expected {}", path_.string(), field,
-                        found.dump(-1, ' ', false, json::error_handler_t::replace).substr(0, 60), expected));
-    }
+std::string moments_name(std::uint32_t samples) {
+    return fmt::format("moments-{}.npy", samples);
+}
 
-private:
-    const json& at(const char* field) const {
-        const auto found = root_.find(field);
-        if (found == root_.end())
-            throw trace::DataError(fmt::format("{}: {}: not there", path_.string(), field));
-        return *found;
+constexpr std::string_view count = "a whole number", text = "a text";
+const Kind reference_kind{"reference",
+                          {{"reference_version", true, "the version of the format"},
+                           {"scene", true, text},
+                           {"scene_checksum", true, text},
+                           {"image_width", true, count},
+                           {"image_height", true, count},
+                           {"seed", true, count},
+                           {"samples", true, count},
+                           {"seconds", true, "a number of seconds"},
+                           {"paths", true, count},
+                           {"rays", true, count},
+                           {"shadow_rays", true, count},
+                           {"cut_off_paths", true, count},
+                           {"nonfinite_paths", true, count},
+                           {"moments", true, text},
+                           {"moments_checksum", true, text}}};
+
+/// Of n samples that are not negative, the squared distances from their mean m add up to n (n - 1) m^2 at
+/// most: all of the light is then in one of them. What no samples can have is damage, whatever the checksum
+/// says.
+void check(const Moments& pixel, std::uint64_t samples, const fs::path& file, std::size_t row) {
+    constexpr double rounding = 1e-6;
+    const double n = static_cast<double>(samples);
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double mean = pixel.mean[c], squares = pixel.squares[c];
+        const double most = n * (n - 1) * mean * mean * (1 + rounding);
+        if (!std::isfinite(mean) || mean < 0 || !std::isfinite(squares) || squares < 0 || squares > most)
+            throw trace::DataError(
+                fmt::format("{}: row {}, channel {}: found a mean of {} and squares of {}, expected "
+                            "those of {} samples that are not negative",
+                            file.string(), row, c, mean, squares, samples));
     }
-    fs::path path_;
-    json root_;
-};
+}
 
 /// Only the newest, which reference.json names, is kept.
 void remove_moments_but(const fs::path& folder, const std::string& kept) {
@@ -155,37 +148,48 @@ bool holds_reference(const fs::path& folder) {
 
 Reference load_reference(const fs::path& folder) {
     constexpr std::uint64_t any = std::numeric_limits<std::uint64_t>::max();
-    const State state(folder / state_name);
-    if (const std::uint64_t version = state.number("reference_version", 0, any); version != schema_version)
-        state.fail("reference_version", version,
-                   fmt::format("{}; render the reference again", schema_version));
-    ReferenceKey key{state.text("scene"), state.text("scene_checksum"),
-                     static_cast<std::uint32_t>(state.number("image_width", 1, most_pixels)),
-                     static_cast<std::uint32_t>(state.number("image_height", 1, most_pixels)),
-                     state.number("seed", 0, any)};
-    const std::string name = state.text("moments");
+    const fs::path file = folder / state_name;
+    const trace::Document document(trace::read_file(file, most_state_bytes), file.string());
+    const Field root = document.root();
+    if (const std::optional<Field> version = root.get("reference_version");
+        version && version->value() != Json(schema_version))
+        version->fail(version->found(), fmt::format("{}; render the reference again", schema_version));
+    root.check(reference_kind);
+    const auto number = [&](std::string_view key, std::uint64_t least, std::uint64_t most) {
+        return root[key].whole<std::uint64_t>(least, most);
+    };
+    ReferenceKey key{root["scene"].text(), root["scene_checksum"].text(),
+                     root["image_width"].whole(1, most_pixels), root["image_height"].whole(1, most_pixels),
+                     number("seed", 0, any)};
+    const std::string name = root["moments"].text();
     if (!name.starts_with("moments-") || !name.ends_with(".npy") || name.find('/') != std::string::npos)
-        state.fail("moments", name, "moments-<samples>.npy");
+        root["moments"].fail(root["moments"].found(), "moments-<samples>.npy");
     const trace::MappedColumn column(folder / name, moments_type());
     const std::uint64_t pixels = std::uint64_t{key.width} * key.height;
     if (column.size() != pixels)
         throw trace::DataError(fmt::format("{}: found {} rows, expected {} x {} pixels",
                                            (folder / name).string(), column.size(), key.width, key.height));
     const std::string checksum = hexadecimal(column.checksum());
-    if (const std::string expected = state.text("moments_checksum"); checksum != expected)
+    if (const std::string& expected = root["moments_checksum"].text(); checksum != expected)
         throw trace::DataError(fmt::format("{}: found checksum {}, expected {}: altered or damaged",
-                                           (folder / name).string(), checksum, expected));
+                                           (folder / name).string(), checksum, trace::shown(expected)));
 
     Reference reference(std::move(key));
-    reference.samples =
-        static_cast<std::uint32_t>(state.number("samples", 1, std::numeric_limits<std::uint32_t>::max()));
-    reference.seconds = state.seconds("seconds");
-    reference.counts.samples = state.number("paths", 0, any);
-    reference.counts.rays = state.number("rays", 0, any);
-    reference.counts.shadow_rays = state.number("shadow_rays", 0, any);
-    reference.counts.cut_off = state.number("cut_off_paths", 0, any);
-    reference.counts.nonfinite.count(Stage::path, state.number("nonfinite_paths", 0, any));
+    reference.samples = root["samples"].whole(1, std::numeric_limits<std::uint32_t>::max());
+    reference.seconds = root["seconds"].number(0, std::numeric_limits<double>::max(), "a number of seconds");
+    if (name != moments_name(reference.samples))
+        root["moments"].fail(root["moments"].found(), trace::in_quotes(moments_name(reference.samples)));
+    reference.counts.samples = number("paths", 0, any);
+    if (reference.counts.samples != reference.samples * pixels)
+        root["paths"].fail(root["paths"].found(),
+                           fmt::format("{} samples of each of {} pixels", reference.samples, pixels));
+    reference.counts.rays = number("rays", 0, any);
+    reference.counts.shadow_rays = number("shadow_rays", 0, any);
+    reference.counts.cut_off = number("cut_off_paths", 0, any);
+    reference.counts.nonfinite.count(Stage::path, number("nonfinite_paths", 0, any));
     const std::span<const Moments> rows = column.rows<Moments>();
+    for (std::size_t row = 0; row < rows.size(); ++row)
+        check(rows[row], reference.samples, folder / name, row);
     reference.pixels.assign(rows.begin(), rows.end());
     return reference;
 }
@@ -211,35 +215,37 @@ Reference resume_reference(const fs::path& folder, const ReferenceKey& key) {
 
 void save(const Reference& reference, const fs::path& folder) {
     fs::create_directories(folder);
-    const std::string name = fmt::format("moments-{}.npy", reference.samples),
-                      partial = fmt::format("partial-{}", state_name);
-    trace::ColumnWriter writer(folder / (name + ".partial"), moments_type());
-    writer.append(std::span<const Moments>(reference.pixels));
-    const trace::ColumnDigest digest = writer.finish();
-    fs::rename(folder / (name + ".partial"), folder / name);
-
-    const json state{{"reference_version", schema_version},
-                     {"scene", reference.key.scene},
-                     {"scene_checksum", reference.key.scene_checksum},
-                     {"image_width", reference.key.width},
-                     {"image_height", reference.key.height},
-                     {"seed", reference.key.seed},
-                     {"samples", reference.samples},
-                     {"seconds", reference.seconds},
-                     {"paths", reference.counts.samples},
-                     {"rays", reference.counts.rays},
-                     {"shadow_rays", reference.counts.shadow_rays},
-                     {"cut_off_paths", reference.counts.cut_off},
-                     {"nonfinite_paths", reference.counts.nonfinite.total()},
-                     {"moments", name},
-                     {"moments_checksum", hexadecimal(digest.checksum)}};
-    {
-        std::ofstream file(folder / partial);
-        file << state.dump(2) << "\n";
-        if (!file.flush())
-            throw std::runtime_error(fmt::format("{}: cannot be written", (folder / partial).string()));
+    const std::string name = moments_name(reference.samples);
+    const fs::path partial = folder / (name + ".partial");
+    trace::ColumnDigest digest;
+    try {
+        trace::ColumnWriter writer(partial, moments_type());
+        writer.append(std::span<const Moments>(reference.pixels));
+        digest = writer.finish(trace::OnDisk::before_return);
+        fs::rename(partial, folder / name);
+    } catch (...) {
+        std::error_code ignored;
+        fs::remove(partial, ignored);
+        throw;
     }
-    fs::rename(folder / partial, folder / state_name);
+    trace::sync_folder(folder);
+
+    const Json state = Json::object({{"reference_version", schema_version},
+                                     {"scene", reference.key.scene},
+                                     {"scene_checksum", reference.key.scene_checksum},
+                                     {"image_width", reference.key.width},
+                                     {"image_height", reference.key.height},
+                                     {"seed", reference.key.seed},
+                                     {"samples", reference.samples},
+                                     {"seconds", reference.seconds},
+                                     {"paths", reference.counts.samples},
+                                     {"rays", reference.counts.rays},
+                                     {"shadow_rays", reference.counts.shadow_rays},
+                                     {"cut_off_paths", reference.counts.cut_off},
+                                     {"nonfinite_paths", reference.counts.nonfinite.total()},
+                                     {"moments", name},
+                                     {"moments_checksum", hexadecimal(digest.checksum)}});
+    trace::write_whole(folder / state_name, state.dump(2) + "\n");
     remove_moments_but(folder, name);
 }
 

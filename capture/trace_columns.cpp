@@ -49,6 +49,11 @@ public:
                       [&](std::size_t q) { return bvh_->leaf_of_triangle(queries.triangle[q]); });
     }
 
+    void count(trace::Json& counts) const {
+        if (kd_) counts["leaves_kd"] = kd_->leaf_count();
+        if (bvh_) counts["leaves_bvh"] = bvh_->leaf_count();
+    }
+
 private:
     template <class Label>
     static std::vector<std::uint32_t> labels(std::size_t count, const Label& label) {
@@ -99,6 +104,10 @@ void TraceColumns::write_rays(const PixelWork& work) {
         append(writer_, ray_column(kind, "extent"), rays.extent);
         append(writer_, ray_column(kind, "pixel"), rays.pixel);
     }
+}
+
+void TraceColumns::count_leaves(trace::Json& counts) const {
+    labels_->count(counts);
 }
 
 std::vector<trace::LeftOut> TraceColumns::left_out() const {

@@ -33,6 +33,8 @@ public:
     void write_queries(const Queries& queries, const Gathered& gathered);
     void write_rays(const PixelWork& work);
 
+    /// leaves_kd and leaves_bvh, of the trees whose labels are stored: every label is below.
+    void count_leaves(trace::Json& counts) const;
     std::vector<trace::LeftOut> left_out() const;
 
 private:

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "charts/chart.h"
 #include "charts/convergence.h"
@@ -27,9 +26,9 @@ study::Converged measure(const study::ConvergenceJob& job, const Console& consol
             finished = so_far.rows.size();
             results::write_provenance(
                 so_far.csv, provenance(console, ""),
-                nlohmann::json{{"reference_samples", so_far.reference.samples},
-                               {"reference_rmse", so_far.reference_rmse},
-                               {"scene_checksum", so_far.reference.key.scene_checksum}});
+                trace::Json::object({{"reference_samples", so_far.reference.samples},
+                                     {"reference_rmse", so_far.reference_rmse},
+                                     {"scene_checksum", so_far.reference.key.scene_checksum}}));
         });
     } catch (const Interrupted& interrupted) {
         throw Interrupted(

@@ -6,29 +6,26 @@
 
 #include "cli/command.h"
 #include "cli/commands.h"
+#include "cli/progress.h"
+#include "replay/verification.h"
 #include "scenes/loader.h"
 #include "scenes/needs.h"
-#include "spatial/photon_kd.h"
 #include "trace/error.h"
 #include "trace/folder.h"
 
 namespace regather::cli {
 namespace {
 
-/// Reads everything. Throws trace::DataError for what is damaged.
-void check(trace::TraceReader& trace) {
-    trace.verify_all();
-    const spatial::PhotonKd tree(trace.column<trace::Photon>("photon"));
-    if (const std::uint32_t node = spatial::first_disorder(tree); node != tree.size())
-        throw trace::DataError(
-            fmt::format("{}: node {}: found a photon on the wrong side of a split, expected a "
-                        "left-balanced kd-tree",
-                        (trace.folder() / "photon.npy").string(), node));
-}
-
 void print_trace(const std::filesystem::path& folder, bool verify, const Console& console) {
     trace::TraceReader trace(folder);
-    if (verify) check(trace);
+    replay::Verified verified;
+    if (verify) {
+        Progress progress(console);
+        const experiment::ProgressListener told = progress.listener();
+        verified = replay::verify(trace, [&](std::uint64_t done) {
+            told("searching again", "queries", done, trace.info().queries);
+        });
+    }
     const trace::TraceInfo& info = trace.info();
     const double queries = static_cast<double>(std::max<std::uint64_t>(info.queries, 1));
     console.print(
@@ -51,7 +48,13 @@ void print_trace(const std::filesystem::path& folder, bool verify, const Console
     }
     for (const trace::LeftOut& part : info.left_out)
         console.print("left out   {}: {}\n", part.what, part.why);
-    if (verify) console.print("verified   every column's checksum, and the order of the tree\n");
+    if (!verify) return;
+    console.print("verified   checksums, the order of the tree, pixels, directions, rays, walks{}\n",
+                  verified.searched ? "; each query was searched again and walks the same way"
+                                    : "; not searched again: trace.json does not say the radius");
+    if (verified.queries_nowhere > 0)
+        console.print("           {} queries are at no finite place and find nothing\n",
+                      verified.queries_nowhere);
 }
 
 }  // namespace
@@ -64,10 +67,13 @@ void add_info(Command& command) {
     auto options = std::make_shared<Options>();
     command.argument("what", options->what, "a trace's folder, an embedded scene's name or a scene file")
         .required();
-    command.flag("--verify", options->verify, "read every column of a trace and check it");
+    command.flag("--verify", options->verify,
+                 "read every column of a trace, check it, and search each query again");
     command.footer("Examples:\n  regather info out/room/trace --verify\n  regather info room");
     command.action(options, [](const Options& asked, const Console& console) {
-        if (std::filesystem::is_directory(asked.what)) return print_trace(asked.what, asked.verify, console);
+        std::error_code error;
+        if (std::filesystem::is_directory(asked.what, error))
+            return print_trace(asked.what, asked.verify, console);
         const scenes::Scene scene = scenes::load_scene(asked.what);
         if (asked.verify)
             throw trace::UsageError(

@@ -14,6 +14,7 @@
 #include "experiment/measurement.h"
 #include "experiment/race.h"
 #include "experiment/workload.h"
+#include "replay/verification.h"
 #include "results/provenance.h"
 #include "spatial/photon_kd.h"
 #include "trace/error.h"
@@ -58,14 +59,6 @@ reorder::Workload raced(trace::TraceReader& trace, const reorder::Reads& reads, 
         throw trace::DataError(fmt::format("{}: found no queries, expected at least 1",
                                            (trace.folder() / "query_position.npy").string()));
     return experiment::middle_of(experiment::workload(trace, reads), wanted);
-}
-
-/// Of the searches that made the trace [scene units].
-float captured_radius(const trace::TraceInfo& info) {
-    const nlohmann::json& all = info.parameters;
-    const nlohmann::json& own = info.map == "caustic" && all.contains("caustic") ? all.at("caustic") : all;
-    return own.contains("radius") && own.at("radius").is_number() ? own.at("radius").get<float>()
-                                                                  : std::numeric_limits<float>::infinity();
 }
 
 std::string quoted(const std::string& cell) {
@@ -151,7 +144,7 @@ void race(const Options& options, const Console& console) {
     trace::TraceReader trace(options.trace);
     const trace::TraceInfo& info = trace.info();
     config.k = options.k == 0 ? info.k : options.k;
-    config.radius = captured_radius(info);
+    config.radius = replay::search_radius(info).value_or(std::numeric_limits<float>::infinity());
     const std::span<const trace::Photon> heap = trace.column<trace::Photon>("photon");
     const spatial::PhotonKd tree(heap);
     if (const std::uint32_t node = spatial::first_disorder(tree); node != tree.size())

@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "charts/chart.h"
 #include "cli/command.h"
@@ -20,6 +19,7 @@
 #include "results/csv.h"
 #include "results/provenance.h"
 #include "results/table.h"
+#include "trace/folder.h"
 
 namespace regather::cli {
 namespace {
@@ -36,11 +36,12 @@ struct Made {
     std::vector<fs::path> folders;  ///< One a frame.
     std::vector<results::Row> rows;
     std::vector<std::string> checksums;
-    nlohmann::json parameters;
+    trace::Json parameters;
 };
 
 Made make(const experiment::Experiment& experiment, const Options& options, const Console& console) {
     const Interruption interruption;
+    const trace::FolderLock lock(options.folder);
     try {
         Progress progress(console);
         const experiment::ProgressListener listener = interruption.ending(progress.listener());

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -64,7 +63,8 @@ void run(const Options& options, const Console& console) {
     console.print("{}", charts::stability_table(rows));
     if (!options.folder.empty()) {
         results::write_csv<results::StabilityRow>(csv, rows);
-        results::write_provenance(csv, provenance(console, {}), nlohmann::json{{"quick", options.quick}});
+        results::write_provenance(csv, provenance(console, {}),
+                                  trace::Json::object({{"quick", options.quick}}));
         charts::Rows all;
         all.stability = rows;
         console.print("{}\n", csv.string());

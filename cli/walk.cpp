@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -14,6 +15,8 @@
 #include "spatial/recording.h"
 #include "trace/error.h"
 #include "trace/folder.h"
+#include "trace/text.h"
+#include "trace/word.h"
 
 namespace regather::cli {
 namespace {
@@ -49,6 +52,22 @@ void copy(trace::TraceWriter& writer, const char* name, const OptionalColumn<T>&
     if (column.exists()) writer.column(name).append(column.rows());
 }
 
+/// A column that nobody reads is one whose name is misspelt.
+void refuse_unknown_columns(const fs::path& folder) {
+    static constexpr std::array<std::string_view, 7> known{
+        "photon_position", "query_position", "query_pixel",   "query_weight",
+        "query_direction", "query_leaf_kd",  "query_leaf_bvh"};
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        const std::string name = entry.path().stem().string();
+        if (entry.path().extension() == ".npy" && std::find(known.begin(), known.end(), name) == known.end())
+            throw trace::DataError(fmt::format("{}: found an unknown column {}, expected {} (known: {})",
+                                               folder.string(), trace::in_quotes(name),
+                                               trace::alternatives(trace::nearest_words(name, known)),
+                                               trace::listed(known)));
+    }
+}
+
 /// Without a column each query is a pixel of its own.
 std::uint32_t greatest_pixel(const fs::path& columns, const OptionalColumn<std::uint32_t>& pixel,
                              std::uint64_t queries) {
@@ -66,6 +85,7 @@ std::uint32_t greatest_pixel(const fs::path& columns, const OptionalColumn<std::
 }
 
 void make_trace(const Options& options, const Console& console) {
+    refuse_unknown_columns(options.columns);
     const trace::MappedColumn photon_positions(options.columns / "photon_position.npy",
                                                trace::column_type<Vec3>());
     const trace::MappedColumn positions(options.columns / "query_position.npy", trace::column_type<Vec3>());
@@ -128,8 +148,7 @@ void make_trace(const Options& options, const Console& console) {
     info.k = options.k;
     info.queries = queries;
     info.photons = heap.size();
-    info.parameters["radius"] =
-        std::isfinite(radius) ? nlohmann::json(options.radius) : nlohmann::json(nullptr);
+    info.parameters["radius"] = std::isfinite(radius) ? trace::Json(options.radius) : trace::Json();
     info.parameters["k"] = options.k;
     const auto note = [&](const char* name, bool exists) {
         if (!exists) info.left_out.push_back({name, "it was not among the columns given"});

@@ -8,9 +8,9 @@
 #include <limits>
 #include <memory>
 
-#include "experiment/keys.h"
 #include "reorder/catalogue.h"
 #include "trace/error.h"
+#include "trace/field.h"
 
 namespace regather::experiment {
 namespace {
@@ -78,46 +78,65 @@ capture::Tone CaptureOptions::tone_curve() const {
     return chosen<capture::Tone>(tone, capture::tone_names, "tone");
 }
 
-CaptureOptions capture_options(const nlohmann::json& object, const std::string& file) {
-    static constexpr std::array<std::string_view, 22> keys{"width",          "height",
-                                                           "samples",        "mode",
-                                                           "gather_rays",    "shadow_rays",
-                                                           "photons",        "k",
-                                                           "radius",         "filter",
-                                                           "surface_check",  "caustic_photons",
-                                                           "caustic_k",      "caustic_radius",
-                                                           "caustic_filter", "keep",
-                                                           "frames",         "exposure",
-                                                           "tone",           "seed",
-                                                           "gather_order",   "rays"};
-    const Object in(object, keys, file, "capture");
+CaptureOptions capture_options(const trace::Field& in) {
+    static constexpr bool optional = false;
+    static constexpr std::string_view count = "a whole number", text = "a text",
+                                      length = "a number that is not negative";
+    static const trace::Kind kind{"capture",
+                                  {{"width", optional, count},
+                                   {"height", optional, count},
+                                   {"samples", optional, count},
+                                   {"mode", optional, text},
+                                   {"gather_rays", optional, count},
+                                   {"shadow_rays", optional, count},
+                                   {"photons", optional, count},
+                                   {"k", optional, count},
+                                   {"radius", optional, length},
+                                   {"filter", optional, text},
+                                   {"surface_check", optional, "true or false"},
+                                   {"caustic_photons", optional, count},
+                                   {"caustic_k", optional, count},
+                                   {"caustic_radius", optional, length},
+                                   {"caustic_filter", optional, text},
+                                   {"keep", optional, "a part or a list of parts"},
+                                   {"frames", optional, text},
+                                   {"exposure", optional, length},
+                                   {"tone", optional, text},
+                                   {"seed", optional, count},
+                                   {"gather_order", optional, text},
+                                   {"rays", optional, "true or false"}}};
+    in.check(kind);
     CaptureOptions options;
-    const auto count = [&](const char* key, std::uint32_t& value, std::uint64_t least, std::uint64_t most) {
-        value = static_cast<std::uint32_t>(in.number(key, value, least, most));
+    const auto whole = [&](const char* key, std::uint32_t& value, std::uint32_t least, std::uint32_t most) {
+        if (in.has(key)) value = in[key].whole(least, most);
     };
-    count("width", options.width, 1, most_pixels);
-    count("height", options.height, 1, most_pixels);
-    count("samples", options.samples, 1, most_samples);
-    count("gather_rays", options.gather_rays, 0, 1u << 20);
-    count("shadow_rays", options.shadow_rays, 0, 1u << 20);
-    count("photons", options.photons, 0, most_photons);
-    count("k", options.k, 1, most_photons);
-    count("caustic_photons", options.caustic_photons, 0, most_photons);
-    count("caustic_k", options.caustic_k, 1, most_photons);
-    options.radius = in.real("radius", options.radius);
-    options.caustic_radius = in.real("caustic_radius", options.caustic_radius);
-    options.exposure = in.real("exposure", options.exposure);
+    whole("width", options.width, 1, most_pixels);
+    whole("height", options.height, 1, most_pixels);
+    whole("samples", options.samples, 1, most_samples);
+    whole("gather_rays", options.gather_rays, 0, 1u << 20);
+    whole("shadow_rays", options.shadow_rays, 0, 1u << 20);
+    whole("photons", options.photons, 0, most_photons);
+    whole("k", options.k, 1, most_photons);
+    whole("caustic_photons", options.caustic_photons, 0, most_photons);
+    whole("caustic_k", options.caustic_k, 1, most_photons);
+    for (auto [key, value] : {std::pair<const char*, double*>{"radius", &options.radius},
+                              {"caustic_radius", &options.caustic_radius},
+                              {"exposure", &options.exposure}})
+        if (in.has(key))
+            *value = in[key].number(0, std::numeric_limits<double>::max(), kind.key(key).expected);
     for (auto [key, value] : {std::pair<const char*, std::string*>{"mode", &options.mode},
                               {"filter", &options.filter},
                               {"caustic_filter", &options.caustic_filter},
                               {"tone", &options.tone},
-                              {"frames", &options.frames}})
-        if (in.has(key)) *value = in.text(key);
-    options.surface_check = in.flag("surface_check", options.surface_check);
-    options.keep = in.list("keep", {});
-    options.seed = in.number("seed", options.seed, 0, std::numeric_limits<std::uint64_t>::max());
-    if (in.has("gather_order")) options.gather_order = in.text("gather_order");
-    options.rays = in.flag("rays", options.rays);
+                              {"frames", &options.frames},
+                              {"gather_order", &options.gather_order}})
+        if (in.has(key)) *value = in[key].text();
+    for (auto [key, value] :
+         {std::pair<const char*, bool*>{"surface_check", &options.surface_check}, {"rays", &options.rays}})
+        if (in.has(key)) *value = in[key].truth();
+    if (in.has("keep")) options.keep = in["keep"].texts();
+    if (in.has("seed"))
+        options.seed = in["seed"].whole<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max());
     return options;
 }
 

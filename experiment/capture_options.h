@@ -1,11 +1,14 @@
 // experiment/capture_options.h -- what a capture can be asked for, from a command line or an experiment file.
 #pragma once
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "capture/capture.h"
+
+namespace regather::trace {
+class Field;
+}
 
 namespace regather::experiment {
 
@@ -37,7 +40,7 @@ struct CaptureOptions {
     capture::Tone tone_curve() const;  ///< Throws as config().
 };
 
-/// The "capture" object of an experiment; `file` is for messages.
-CaptureOptions capture_options(const nlohmann::json& object, const std::string& file);
+/// The "capture" object of an experiment. Throws trace::DataError.
+CaptureOptions capture_options(const trace::Field& object);
 
 }  // namespace regather::experiment

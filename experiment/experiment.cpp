@@ -3,48 +3,62 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include <array>
-#include <fstream>
-#include <nlohmann/json.hpp>
+#include <map>
 #include <set>
 
 #include "cachesim/cache_list.h"
 #include "experiment/capture_job.h"
 #include "experiment/frames.h"
-#include "experiment/keys.h"
 #include "experiment/measurement.h"
 #include "reorder/shared_library.h"
 #include "scenes/loader.h"
 #include "scenes/needs.h"
-#include "trace/error.h"
+#include "trace/field.h"
 #include "trace/file.h"
 #include "trace/size.h"
 
 namespace regather::experiment {
 namespace {
 
-using nlohmann::json;
+using trace::Field, trace::Kind;
 
-/// Runs `make`, whose usage errors are this file's bad data.
-template <class Make>
-auto at(const Object& object, std::string_view key, const Make& make) {
-    try {
-        return make();
-    } catch (const trace::UsageError& error) {
-        throw trace::DataError(fmt::format("{}: {}: {}", object.file(), object.place(key), error.what()));
-    }
+constexpr std::uint64_t most_experiment_bytes = 16 << 20;
+
+const Kind experiment_kind{"experiment",
+                           {{"scene", true, "the name of a scene, or a scene file"},
+                            {"capture", false, "an object"},
+                            {"orderings", true, "a list of orderings"},
+                            {"caches", false, "a list of caches"},
+                            {"onchip", false, "one size"},
+                            {"classes", false, "true or false"},
+                            {"buffers", false, "true or false"},
+                            {"sample", false, "a whole number from 1 to 1024"},
+                            {"sample_seed", false, "a whole number"}}};
+const Kind cache_kind{"cache",
+                      {{"size", false, "a size or a list of sizes"},
+                       {"line", false, "a size or a list of sizes"},
+                       {"ways", false, "a number of ways or a list of them"}}};
+
+/// The list at a key, which is not empty.
+std::vector<Field> entries(const Field& owner, std::string_view key) {
+    const std::vector<Field> all = owner[key].elements("a list with at least one entry");
+    if (all.empty()) owner[key].fail("an empty list", "a list with at least one entry");
+    return all;
 }
 
-std::vector<cachesim::CacheConfig> listed_caches(const Object& owner) {
-    static constexpr std::array<std::string_view, 3> keys{"size", "line", "ways"};
+std::vector<std::string> texts(const Field& owner, std::string_view key, const char* otherwise) {
+    const std::optional<Field> field = owner.get(key);
+    return field ? field->texts() : std::vector<std::string>{otherwise};
+}
+
+std::vector<cachesim::CacheConfig> listed_caches(const Field& owner) {
     std::vector<cachesim::CacheConfig> caches;
-    const json& list = owner.array("caches");
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        const Object entry(list[i], keys, owner.file(), owner.place(fmt::format("caches[{}]", i)));
-        for (const std::string& size : entry.list("size", {"128K"}))
-            for (const std::string& line : entry.list("line", {"128"}))
-                for (const std::string& ways : entry.list("ways", {"8"}))
-                    for (const cachesim::CacheConfig& cache : at(owner, fmt::format("caches[{}]", i), [&] {
+    for (const Field& entry : entries(owner, "caches")) {
+        entry.check(cache_kind);
+        for (const std::string& size : texts(entry, "size", "128K"))
+            for (const std::string& line : texts(entry, "line", "128"))
+                for (const std::string& ways : texts(entry, "ways", "8"))
+                    for (const cachesim::CacheConfig& cache : entry.checked([&] {
                              return cachesim::parse_caches(fmt::format("{}:{}:{}", size, line, ways));
                          }))
                         caches.push_back(cache);
@@ -52,18 +66,19 @@ std::vector<cachesim::CacheConfig> listed_caches(const Object& owner) {
     return caches;
 }
 
-/// "name:a=1,b=2" for each combination of the lists of values.
-std::vector<std::string> specs(const json& entry, const Object& object, const std::string& name) {
+/// "name:a=1,b=2" for each combination of the lists of values; the keys in alphabetical order.
+std::vector<std::string> specs(const Field& entry, const std::string& name) {
+    std::map<std::string, std::vector<std::string>> parameters;
+    for (const auto& [key, field] : entry.members())
+        if (key != "ordering" && key != "caches") parameters[key] = field.texts();
     std::vector<std::string> all{name};
-    bool first = true;
-    for (const auto& [key, unused] : entry.items()) {
-        if (key == "ordering" || key == "caches") continue;
+    for (const auto& [key, values] : parameters) {
         std::vector<std::string> longer;
         for (const std::string& spec : all)
-            for (const std::string& value : object.list(key, {}))
-                longer.push_back(fmt::format("{}{}{}={}", spec, first ? ":" : ",", key, value));
+            for (const std::string& value : values)
+                longer.push_back(
+                    fmt::format("{}{}{}={}", spec, key == parameters.begin()->first ? ":" : ",", key, value));
         all = std::move(longer);
-        first = false;
     }
     return all;
 }
@@ -77,100 +92,77 @@ std::string library_digest(const reorder::Ordering& ordering) {
 }
 
 /// An ordering through a cache is a row: each may be asked for once.
-void refuse_repeated_rows(const std::vector<Trial>& trials, const Object& in) {
+void refuse_repeated_rows(const std::vector<Trial>& trials, const Field& orderings) {
     std::set<std::string> seen;
     for (const Trial& trial : trials)
         for (const cachesim::CacheConfig& cache : trial.caches)
             if (!seen.insert(trial.ordering.spec.text + ' ' + cachesim::cache_text(cache)).second)
-                in.refuse("orderings",
-                          fmt::format("{} through the cache {} twice", trial.ordering.spec.text,
-                                      cachesim::cache_text(cache)),
-                          "each once");
+                orderings.fail(fmt::format("{} through the cache {} twice", trial.ordering.spec.text,
+                                           cachesim::cache_text(cache)),
+                               "each once");
 }
 
 }  // namespace
 
 Experiment load_experiment(const std::filesystem::path& path) {
-    std::ifstream stream(path);
-    if (!stream)
-        throw trace::DataError(fmt::format("{}: found no such file, expected an experiment", path.string()));
-    json root;
-    try {
-        // A key that stands twice in an object would silently lose its first value.
-        std::vector<std::set<std::string>> open_objects;
-        root = json::parse(stream, [&](int, json::parse_event_t event, json& value) {
-            if (event == json::parse_event_t::object_start) open_objects.emplace_back();
-            if (event == json::parse_event_t::object_end) open_objects.pop_back();
-            if (event == json::parse_event_t::key &&
-                !open_objects.back().insert(value.get<std::string>()).second)
-                throw trace::DataError(
-                    fmt::format("{}: {}: found the key twice in one object, expected it once", path.string(),
-                                value.get<std::string>()));
-            return true;
-        });
-    } catch (const json::exception& error) {
-        throw trace::DataError(fmt::format("{}: found no valid JSON ({})", path.string(), error.what()));
-    }
-    static constexpr std::array<std::string_view, 9> keys{
-        "scene", "capture", "orderings", "caches", "onchip", "classes", "buffers", "sample", "sample_seed"};
-    const Object in(root, keys, path.string(), "");
+    const trace::Document document(trace::read_file(path, most_experiment_bytes), path.string());
+    const Field in = document.root();
+    in.check(experiment_kind);
     Experiment experiment;
-    experiment.scene = in.text("scene");
+    experiment.scene = in["scene"].text();
     // A scene file is named relative to the experiment that uses it.
     if (experiment.scene.ends_with(".json") && std::filesystem::path(experiment.scene).is_relative())
         experiment.scene = (path.parent_path() / experiment.scene).string();
-    const scenes::Scene scene = at(in, "scene", [&] { return scenes::load_scene(experiment.scene); });
-    if (in.has("capture")) experiment.capture = capture_options(root["capture"], path.string());
-    at(in, "capture", [&] { return experiment.capture.config(); });
-    if (!experiment.capture.frames.empty())
-        at(in, "capture.frames", [&] { return parse_frames(experiment.capture.frames, frames_of(scene)); });
-    at(in, "capture.keep", [&] {
-        scenes::Needs needs = scenes::needs_of(scene);
-        needs.keep(experiment.capture.config().keep);
-        return needs;
-    });
-    if (in.has("onchip")) {
-        const std::vector<std::string> sizes = in.list("onchip", {});
-        if (sizes.size() != 1) in.refuse("onchip", root["onchip"].dump(), "one size");
-        experiment.onchip_bytes = at(in, "onchip", [&] { return trace::parse_size(sizes.front()); });
+    const scenes::Scene scene = in["scene"].checked([&] { return scenes::load_scene(experiment.scene); });
+    if (const std::optional<Field> asked = in.get("capture")) {
+        experiment.capture = capture_options(*asked);
+        const capture::CaptureConfig config = asked->checked([&] { return experiment.capture.config(); });
+        if (const std::optional<Field> frames = asked->get("frames"))
+            frames->checked([&] { return parse_frames(experiment.capture.frames, frames_of(scene)); });
+        if (const std::optional<Field> keep = asked->get("keep"))
+            keep->checked([&] {
+                scenes::Needs needs = scenes::needs_of(scene);
+                needs.keep(config.keep);
+            });
+    }
+    if (const std::optional<Field> onchip = in.get("onchip")) {
+        const std::vector<std::string> sizes = onchip->texts();
+        if (sizes.size() != 1) onchip->fail(onchip->found(), "one size");
+        experiment.onchip_bytes = onchip->checked([&] { return trace::parse_size(sizes.front()); });
     }
     const std::vector<cachesim::CacheConfig> caches =
         in.has("caches") ? listed_caches(in) : std::vector<cachesim::CacheConfig>{cachesim::CacheConfig{}};
 
-    experiment.method.classes = in.flag("classes", false);
-    experiment.method.buffers = in.flag("buffers", false);
-    if (const std::uint64_t one_of = in.number("sample", 1, 1, 1024); one_of != 1) {
-        for (const auto& [key, asked] :
-             {std::pair{"classes", experiment.method.classes}, {"buffers", experiment.method.buffers}})
-            if (asked) in.refuse(key, "true beside \"sample\"", "one of them");
-        experiment.method.sampling = replay::Sampling{static_cast<std::uint32_t>(one_of),
-                                                      in.number("sample_seed", 1, 0, ~std::uint64_t{0})};
+    const auto flag = [&](std::string_view key) { return in.has(key) && in[key].truth(); };
+    experiment.method.classes = flag("classes");
+    experiment.method.buffers = flag("buffers");
+    const std::uint32_t one_of = in.has("sample") ? in["sample"].whole(1, 1024) : 1;
+    const std::uint64_t sample_seed =
+        in.has("sample_seed") ? in["sample_seed"].whole<std::uint64_t>(0, ~std::uint64_t{0}) : 1;
+    if (one_of != 1) {
+        for (const char* const key : {"classes", "buffers"})
+            if (flag(key)) in[key].fail("true beside \"sample\"", "one of them");
+        experiment.method.sampling = replay::Sampling{one_of, sample_seed};
     }
 
-    const json& list = in.array("orderings");
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        const std::string place = fmt::format("orderings[{}]", i);
-        const json entry = list[i].is_string() ? json{{"ordering", list[i]}} : list[i];
-        std::vector<std::string_view> known;
-        if (entry.is_object())
-            for (const auto& [key, unused] : entry.items())
-                known.push_back(key);  // the ordering knows its own keys
-        const Object object(entry, known, path.string(), place);
-        const std::string name = object.text("ordering");
-        for (const std::string& spec : specs(entry, object, name)) {
-            reorder::ParsedOrdering parsed = at(in, place, [&] { return reorder::parse_ordering(spec); });
+    for (const Field& entry : entries(in, "orderings")) {
+        const bool bare = entry.value().text() != nullptr;
+        if (!bare && !entry.value().is_object())
+            entry.fail(entry.found(), "the name of an ordering, or an object");
+        const std::string name = bare ? entry.text() : entry["ordering"].text("the name of an ordering");
+        for (const std::string& spec : bare ? std::vector<std::string>{name} : specs(entry, name)) {
+            reorder::ParsedOrdering parsed = entry.checked([&] { return reorder::parse_ordering(spec); });
             std::string digest = library_digest(*parsed.ordering);
             experiment.trials.push_back({std::move(parsed),
-                                         object.has("caches") ? listed_caches(object) : caches,
+                                         !bare && entry.has("caches") ? listed_caches(entry) : caches,
                                          std::move(digest)});
         }
         if (experiment.method.sampling)
-            at(in, "sample", [&] {
+            in["sample"].checked([&] {
                 replay::SetSample::check(experiment.trials.back().caches, *experiment.method.sampling);
-                return 0;
             });
     }
-    refuse_repeated_rows(experiment.trials, in);
+    refuse_repeated_rows(experiment.trials, in["orderings"]);
     return experiment;
 }
 

@@ -8,6 +8,7 @@
 #include "capture/capture.h"
 #include "scenes/camera_path.h"
 #include "scenes/loader.h"
+#include "trace/folder_lock.h"
 
 namespace regather::experiment {
 namespace {
@@ -75,6 +76,7 @@ void render(capture::Reference& reference, const scenes::Scene& scene, const Ref
 capture::Reference run(const ReferenceJob& job, const ProgressListener& progress) {
     scenes::Scene scene = scenes::load_scene(job.scene);
     if (job.frame) scene.camera = scenes::camera_at(scene, *job.frame);
+    const trace::FolderLock lock(job.folder);
     capture::Reference reference = capture::resume_reference(
         job.folder, {scene.name, capture::checksum(scene), job.width, job.height, job.seed});
     render(reference, scene, job.goal, job.folder, progress);

@@ -32,8 +32,9 @@ struct ReferenceJob {
     ReferenceGoal goal;
 };
 
-/// Renders until the goal is reached, in runs of about a second; saves the first samples, then every 30 seconds, at the end, and when
-/// the listener throws, which is then thrown on. At least 2 samples when `least_samples` says so.
+/// Renders until the goal is reached, in runs of about a second; saves the first samples, then every 30
+/// seconds, at the end, and when the listener throws, which is then thrown on. At least 2 samples when
+/// `least_samples` says so.
 void render(capture::Reference& reference, const scenes::Scene& scene, const ReferenceGoal& goal,
             const std::filesystem::path& folder, const ProgressListener& progress,
             std::uint32_t least_samples = 1);

@@ -2,51 +2,73 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
+#include <limits>
+#include <utility>
 
-#include "trace/error.h"
+#include "trace/field.h"
 
 namespace regather::experiment {
 
-using nlohmann::json;
+using trace::Field, trace::Json, trace::Kind;
+
+namespace {
+
+constexpr std::string_view count = "a whole number", counts = "a list of whole numbers";
+const Kind line_kind{"line size",
+                     {{"line_bytes", true, count},
+                      {"accesses", true, count},
+                      {"levels", true, "a list of levels"},
+                      {"by_distance", true, counts}}};
+const Kind level_kind{"level",
+                      {{"sets", true, count}, {"misses", true, counts}, {"conflicts", true, counts}}};
+
+std::uint64_t whole(const Field& field) {
+    return field.whole<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max());
+}
+std::vector<std::uint64_t> wholes(const Field& field) {
+    std::vector<std::uint64_t> all;
+    for (const Field& one : field.elements(counts)) all.push_back(whole(one));
+    return all;
+}
+
+}  // namespace
 
 std::string text_of(const replay::Revisits& revisits) {
-    json lines = json::array();
-    for (const auto& [line_bytes, counts] : revisits) {
-        json levels = json::array();
-        for (const cachesim::FamilyCounts::Level& level : counts.levels)
-            levels.push_back(
-                {{"sets", level.level.sets}, {"misses", level.misses}, {"conflicts", level.conflicts}});
-        lines.push_back({{"line_bytes", line_bytes},
-                         {"accesses", counts.accesses},
-                         {"levels", levels},
-                         {"by_distance", counts.by_distance}});
+    Json::List lines;
+    for (const auto& [line_bytes, found] : revisits) {
+        Json::List levels;
+        for (const cachesim::FamilyCounts::Level& level : found.levels)
+            levels.push_back(Json::object(
+                {{"sets", level.level.sets}, {"misses", level.misses}, {"conflicts", level.conflicts}}));
+        lines.push_back(Json::object({{"line_bytes", line_bytes},
+                                      {"accesses", found.accesses},
+                                      {"levels", std::move(levels)},
+                                      {"by_distance", found.by_distance}}));
     }
-    return lines.dump(1) + '\n';
+    return Json(std::move(lines)).dump(1) + '\n';
 }
 
 replay::Revisits revisits_in(std::string_view text, const std::filesystem::path& path) {
-    try {
-        replay::Revisits revisits;
-        const json root = json::parse(text);
-        for (const json& line : root.get_ref<const json::array_t&>()) {
-            cachesim::FamilyCounts& counts = revisits[line.at("line_bytes").get<std::uint32_t>()];
-            line.at("accesses").get_to(counts.accesses);
-            line.at("by_distance").get_to(counts.by_distance);
-            for (const json& level : line.at("levels")) {
-                cachesim::FamilyCounts::Level& to = counts.levels.emplace_back();
-                level.at("misses").get_to(to.misses);
-                level.at("conflicts").get_to(to.conflicts);
-                to.level = {level.at("sets").get<std::uint64_t>(),
-                            static_cast<std::uint32_t>(to.misses.size())};
-            }
+    const trace::Document document(text, path.string());
+    replay::Revisits revisits;
+    for (const Field& line :
+         document.root().elements("the counts of revisits of an earlier run; delete the file")) {
+        line.check(line_kind);
+        const std::uint32_t line_bytes = line["line_bytes"].whole(1, 1u << 31);
+        if (revisits.contains(line_bytes))
+            line["line_bytes"].fail(fmt::format("{} a second time", line_bytes), "each once");
+        cachesim::FamilyCounts& to = revisits[line_bytes];
+        to.accesses = whole(line["accesses"]);
+        to.by_distance = wholes(line["by_distance"]);
+        for (const Field& level : line["levels"].elements()) {
+            level.check(level_kind);
+            cachesim::FamilyCounts::Level& counted = to.levels.emplace_back();
+            counted.misses = wholes(level["misses"]);
+            counted.conflicts = wholes(level["conflicts"]);
+            counted.level = {whole(level["sets"]), static_cast<std::uint32_t>(counted.misses.size())};
         }
-        return revisits;
-    } catch (const json::exception& error) {
-        throw trace::DataError(
-            fmt::format("{}: found no counts of revisits ({}), expected those of an earlier run; delete it",
-                        path.string(), error.what()));
     }
+    return revisits;
 }
 
 }  // namespace regather::experiment

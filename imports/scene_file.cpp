@@ -9,12 +9,12 @@
 #include <bit>
 #include <cerrno>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
 
 #include "trace/error.h"
 #include "trace/file.h"
+#include "trace/json.h"
 
 namespace regather::imports {
 
@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 static_assert(std::endian::native == std::endian::little);
 
 std::string text_of(std::string_view text) {
-    return nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+    return trace::Json(text).dump();
 }
 
 std::string text_of(Vec3 v) {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
+#include <array>
 
 #include "trace/error.h"
 #include "trace/file.h"
@@ -21,26 +21,21 @@ void refuse_to_overwrite(const std::filesystem::path& csv, bool force) {
             fmt::format("--csv: found {}, expected another ending than .json, which the provenance "
                         "beside it bears",
                         csv.string()));
-    if (force) return;
-    for (const std::filesystem::path& file : {csv, json})
-        if (std::filesystem::exists(file))
-            throw trace::UsageError(fmt::format("{}: exists; --force overwrites it", file.string()));
+    trace::refuse_to_overwrite(std::array{csv, json}, force);
 }
 
 void write_provenance(const std::filesystem::path& csv, const Provenance& provenance,
-                      const nlohmann::json& trace_parameters) {
+                      const trace::Json& trace_parameters) {
     std::vector<std::string> words = provenance.command_line;
     if (!words.empty()) words.front() = std::filesystem::path(words.front()).filename().string();
-    nlohmann::ordered_json out;
-    out["results"] = csv.filename().string();
-    out["command_line"] = words;
-    out["regather_version"] = provenance.version;
-    out["git_revision"] = provenance.git_revision;
-    out["trace_checksum"] = provenance.trace_checksum;
-    out["trace_parameters"] = trace_parameters;
+    const trace::Json out = trace::Json::object({{"results", csv.filename().string()},
+                                                 {"command_line", words},
+                                                 {"regather_version", provenance.version},
+                                                 {"git_revision", provenance.git_revision},
+                                                 {"trace_checksum", provenance.trace_checksum},
+                                                 {"trace_parameters", trace_parameters}});
     // A command line may hold bytes that are no UTF-8: replaced, not thrown at the end of a long run.
-    trace::write_whole(provenance_path(csv),
-                       out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    trace::write_whole(provenance_path(csv), out.dump(2) + "\n");
 }
 
 }  // namespace regather::results

@@ -2,9 +2,10 @@
 // so that the same run writes the same bytes anywhere.
 #pragma once
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
+
+#include "trace/json.h"
 
 namespace regather::results {
 
@@ -24,6 +25,6 @@ void refuse_to_overwrite(const std::filesystem::path& csv, bool force);
 
 /// Writes the JSON beside `csv`; `trace_parameters` goes in as it is (null when no trace was read).
 void write_provenance(const std::filesystem::path& csv, const Provenance& provenance,
-                      const nlohmann::json& trace_parameters);
+                      const trace::Json& trace_parameters);
 
 }  // namespace regather::results

@@ -12,6 +12,7 @@
 #include "scenes/loader.h"
 #include "trace/error.h"
 #include "trace/file.h"
+#include "trace/folder_lock.h"
 
 namespace regather::study {
 namespace {
@@ -113,7 +114,7 @@ Converged run(const ConvergenceJob& job, const experiment::ProgressListener& pro
     const std::vector<Setting> ladder = ladder_of(scene, job.ladder);
     const fs::path csv = job.folder / "converge.csv", strips = job.folder / "strips";
     const bool has_rows = !job.force && fs::exists(csv);
-    fs::create_directories(job.folder);
+    const trace::FolderLock lock(job.folder);
     Converged result{scene.name, reference_of(scene, job, has_rows, progress), {}, 0, 0, {}, 0, 0, 0, csv};
     const capture::ReferenceKey& key = result.reference.key;
     result.config.width = key.width;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "trace/error.h"
 #include "trace/text.h"
 #include "trace/word.h"
 
@@ -45,9 +44,13 @@ const Key& Kind::key(std::string_view key_name) const {
 }
 
 void Field::fail(std::string_view found, std::string_view expected) const {
+    refuse(fmt::format("found {}, expected {}", found, expected));
+}
+
+void Field::refuse(std::string_view message) const {
     const std::string& place = path_.empty() ? source_->root_name : path_;
-    throw DataError(fmt::format("{}: line {}{}{}: found {}, expected {}", source_->file, value_->line(),
-                                place.empty() ? "" : ", ", place, found, expected));
+    throw DataError(fmt::format("{}: line {}{}{}: {}", source_->file, value_->line(),
+                                place.empty() ? "" : ", ", place, message));
 }
 
 std::string Field::found() const {
@@ -176,6 +179,24 @@ std::uint64_t Field::whole_64(std::uint64_t low, std::uint64_t high, std::string
 bool Field::truth(std::string_view expected) const {
     if (!value_->truth()) fail(found(), expected);
     return *value_->truth();
+}
+
+std::vector<std::string> Field::texts() const {
+    std::vector<std::string> all;
+    const auto add = [&](const Field& one) {
+        if (one.value_->whole()) {
+            all.push_back(one.value_->dump());
+        } else {
+            all.push_back(one.text("a text or a whole number, or a list of them"));
+        }
+    };
+    if (value_->list()) {
+        for (const Field& one : elements()) add(one);
+    } else {
+        add(*this);
+    }
+    if (all.empty()) fail("an empty list", "at least one value");
+    return all;
 }
 
 std::array<double, 3> Field::numbers(double low, double high, std::string_view expected) const {

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "trace/error.h"
 #include "trace/json.h"
 #include "trace/vec.h"
 
@@ -39,6 +40,17 @@ public:
     const std::string& path() const { return path_; }  ///< "shapes[3].radius"; empty for the outermost value.
     const std::string& file() const { return source_->file; }
     [[noreturn]] void fail(std::string_view found, std::string_view expected) const;
+    /// "FILE: line L, PATH: MESSAGE".
+    [[noreturn]] void refuse(std::string_view message) const;
+    /// What make() gives; its usage errors are this file's bad data.
+    template <class Make>
+    auto checked(const Make& make) const {
+        try {
+            return make();
+        } catch (const UsageError& error) {
+            refuse(error.what());
+        }
+    }
     /// What is found here, for fail(): "an object", "a list of 3", "\"text\"", "-1".
     std::string found() const;
 
@@ -70,6 +82,8 @@ public:
         return static_cast<T>(whole_64(low, high, expected));
     }
     bool truth(std::string_view expected = "true or false") const;
+    /// Of a text or a whole number, or a list of them that is not empty: the numbers as texts.
+    std::vector<std::string> texts() const;
     std::array<double, 3> numbers(double low, double high, std::string_view expected) const;
     Vec3 triple(double low, double high, std::string_view expected) const;  ///< numbers(), rounded to floats.
 

@@ -4,36 +4,18 @@
 #include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <system_error>
-#include <utility>
 
+#include "trace/descriptor.h"
 #include "trace/error.h"
 #include "trace/text.h"
 
 namespace regather::trace {
 
 namespace {
-
-/// A file descriptor that is closed at the end.
-class Descriptor {
-public:
-    explicit Descriptor(int number) : number_(number) {}
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
-    }
-    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-    int number() const { return number_; }
-
-private:
-    int number_;
-};
-
-constexpr std::size_t most_shown = 300;  // of a path
 
 /// The file of this name, created if needed, which no other process is writing.
 template <class Fail>
@@ -58,7 +40,7 @@ Descriptor locked(const std::filesystem::path& path, const Fail& fail) {
 std::string read_file(const std::filesystem::path& path, std::uint64_t most_bytes) {
     const auto refuse = [&](const std::string& found) {
         return DataError(fmt::format("{}: found {}, expected a file of at most {} bytes",
-                                     shown(path.string(), most_shown), found, most_bytes));
+                                     shown(path.string(), most_shown_path), found, most_bytes));
     };
     const auto reason = [] { return fmt::format("what cannot be read ({})", std::strerror(errno)); };
     // Without O_NONBLOCK a pipe would wait for its writer.
@@ -93,7 +75,7 @@ void write_whole(const std::filesystem::path& path, std::string_view bytes) {
     const auto fail = [&](const char* reason) {
         if (ours) ::unlink(partial.c_str());
         throw std::runtime_error(
-            fmt::format("{}: cannot be written: {}", shown(path.string(), most_shown), reason));
+            fmt::format("{}: cannot be written: {}", shown(path.string(), most_shown_path), reason));
     };
     if (path.has_parent_path()) {
         std::error_code error;
@@ -112,6 +94,16 @@ void write_whole(const std::filesystem::path& path, std::string_view bytes) {
     if (::fsync(file.number()) != 0 || ::rename(partial.c_str(), path.c_str()) != 0)
         fail(std::strerror(errno));
     sync_folder(path.parent_path());
+}
+
+void refuse_to_overwrite(std::span<const std::filesystem::path> files, bool force) {
+    if (force) return;
+    for (const std::filesystem::path& file : files) {
+        std::error_code error;
+        if (std::filesystem::exists(std::filesystem::symlink_status(file, error)))
+            throw UsageError(
+                fmt::format("{}: exists; --force overwrites it", shown(file.string(), most_shown_path)));
+    }
 }
 
 void sync_folder(const std::filesystem::path& folder) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,10 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t most_byte
 /// Creates missing parent folders. Throws std::runtime_error that names the file (disk full, no permission, a
 /// folder of this name, another process that is writing it) and leaves nothing of its own behind.
 void write_whole(const std::filesystem::path& path, std::string_view bytes);
+
+/// Throws UsageError "FILE: exists; --force overwrites it" for the first of `files` that is there, unless
+/// `force`: to be called before the work whose result they are to hold.
+void refuse_to_overwrite(std::span<const std::filesystem::path> files, bool force);
 
 /// Brings a folder's list of names to the disk: after a rename in it. Folders that cannot be are passed over.
 void sync_folder(const std::filesystem::path& folder);

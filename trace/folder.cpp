@@ -3,16 +3,19 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include <array>
+#include <algorithm>
 #include <charconv>
+#include <limits>
 #include <set>
 
+#include "trace/field.h"
 #include "trace/file.h"
+#include "trace/text.h"
+#include "trace/word.h"
 
 namespace regather::trace {
 namespace {
 
-using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr ColumnEntry table[] = {
@@ -55,48 +58,82 @@ std::string hexadecimal(std::uint64_t value) {
     return fmt::format("{:016x}", value);
 }
 
+constexpr std::uint64_t most_json_bytes = 16 << 20;  // a trace.json has some thousand
+
 fs::path column_path(const fs::path& folder, std::string_view name) {
     return folder / fmt::format("{}.npy", name);
 }
 
-class JsonField {
-public:
-    JsonField(const fs::path& file, const json& object, std::string_view field) : file_(file), field_(field) {
-        const auto found = object.is_object() ? object.find(field) : object.end();
-        if (!object.is_object() || found == object.end()) refuse("nothing", "a value");
-        value_ = &*found;
-    }
-    [[noreturn]] void refuse(const std::string& found, const std::string& expected) const {
-        throw DataError(
-            fmt::format("{}: {}: found {}, expected {}", file_.string(), field_, found, expected));
-    }
-    std::uint64_t unsigned_number() const {
-        if (!value_->is_number_unsigned()) refuse(value_->dump(), "a whole number that is not negative");
-        return value_->get<std::uint64_t>();
-    }
-    std::uint32_t small_number() const {
-        const std::uint64_t number = unsigned_number();
-        if (number > 0xffffffffu) refuse(value_->dump(), "a number below 2^32");
-        return static_cast<std::uint32_t>(number);
-    }
-    std::string text() const {
-        if (!value_->is_string()) refuse(value_->dump(), "a text");
-        return value_->get<std::string>();
-    }
-    const json& object() const {
-        if (!value_->is_object()) refuse(value_->dump(), "an object");
-        return *value_;
-    }
-    const json& list() const {
-        if (!value_->is_array()) refuse(value_->dump(), "a list");
-        return *value_;
-    }
+constexpr bool required = true, optional = false;
+constexpr std::string_view count = "a whole number that is not negative",
+                           from_one = "a whole number from 1 up",
+                           pixels = "a whole number of pixels from 1 up";
 
-private:
-    const fs::path& file_;
-    std::string_view field_;
-    const json* value_ = nullptr;
-};
+const Kind trace_kind{"trace",
+                      {{"regather_trace", required, "the version of the format"},
+                       {"scene", required, "the name of the scene"},
+                       {"image_width", required, pixels},
+                       {"image_height", required, pixels},
+                       {"map", optional, "the name of a photon map"},
+                       {"frame", optional, count},
+                       {"k", required, from_one},
+                       {"seed", required, count},
+                       {"structure", required, "the name of a structure"},
+                       {"queries", required, count},
+                       {"photons", required, count},
+                       {"found_photons", required, count},
+                       {"visited_nodes", required, count},
+                       {"parameters", required, "an object"},
+                       {"counts", required, "an object"},
+                       {"left_out", required, "a list of what was left out, and why"},
+                       {"columns", required, "an object of columns by name"}}};
+const Kind left_out_kind{"entry of left_out", {{"what", required, "a text"}, {"why", required, "a text"}}};
+const Kind column_kind{"column",
+                       {{"rows", required, count},
+                        {"type", required, "the type of the column"},
+                        {"xxh3_64", required, "16 hexadecimal digits"}}};
+
+std::uint64_t whole(const Field& object, std::string_view key, std::uint64_t least = 0,
+                    std::uint64_t most = std::numeric_limits<std::uint64_t>::max()) {
+    return object[key].whole<std::uint64_t>(least, most, trace_kind.key(key).expected);
+}
+std::uint32_t small(const Field& object, std::string_view key, std::uint32_t least) {
+    return static_cast<std::uint32_t>(whole(object, key, least, std::numeric_limits<std::uint32_t>::max()));
+}
+const Json& object_at(const Field& root, std::string_view key) {
+    const Field field = root[key];
+    if (!field.value().is_object()) field.fail(field.found(), "an object");
+    return field.value();
+}
+
+ColumnDigest digest_of(const Field& column, const ColumnEntry& entry) {
+    column.check(column_kind);
+    ColumnDigest digest;
+    digest.rows = column["rows"].whole<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max(), count);
+    if (const std::string_view type = entry.type().readable; column["type"].text() != type)
+        column["type"].fail(column["type"].found(), in_quotes(type));
+    const Field checksum = column["xxh3_64"];
+    const std::string& text = checksum.text("16 hexadecimal digits");
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), digest.checksum, 16);
+    if (text.size() != 16 || error != std::errc{} || end != text.data() + text.size())
+        checksum.fail(checksum.found(), "16 hexadecimal digits");
+    return digest;
+}
+
+/// Of a trace's folder.
+std::string trace_json(const fs::path& folder) {
+    const fs::path file = folder / "trace.json";
+    std::error_code error;
+    if (!fs::exists(file, error)) {
+        if (!fs::is_directory(folder, error))
+            throw DataError(fmt::format("{}: found no such folder, expected a trace",
+                                        shown(folder.string(), most_shown_path)));
+        throw DataError(fmt::format(
+            "{}: found no trace.json, expected a finished trace (was the capture interrupted? capture again)",
+            shown(folder.string(), most_shown_path)));
+    }
+    return read_file(file, most_json_bytes);
+}
 
 }  // namespace
 
@@ -110,12 +147,7 @@ const ColumnEntry& column_entry(std::string_view name) {
     throw UsageError(fmt::format("no trace column is called '{}'", name));
 }
 
-TraceWriter::TraceWriter(fs::path folder, bool force) : folder_(std::move(folder)) {
-    std::error_code error;
-    fs::create_directories(folder_, error);
-    if (error || !fs::is_directory(folder_))
-        throw std::runtime_error(
-            fmt::format("{}: cannot create the folder: {}", folder_.string(), error.message()));
+TraceWriter::TraceWriter(fs::path folder, bool force) : folder_(std::move(folder)), lock_(folder_) {
     std::set<std::string> known{"trace.json", "trace.json.partial"};
     for (const ColumnEntry& entry : table) known.insert(fmt::format("{}.npy", entry.name));
     for (const auto& file : fs::directory_iterator(folder_))
@@ -140,106 +172,67 @@ ColumnWriter& TraceWriter::column(std::string_view name) {
 }
 
 void TraceWriter::finish(const TraceInfo& info) {
-    json columns = json::object();
+    Json columns = Json::object();
     for (auto& [name, writer] : writers_) {
         const ColumnDigest digest = writer.finish();
-        columns[name] = {{"rows", digest.rows},
-                         {"type", column_entry(name).type().readable},
-                         {"xxh3_64", hexadecimal(digest.checksum)}};
+        columns[name] = Json::object({{"rows", digest.rows},
+                                      {"type", column_entry(name).type().readable},
+                                      {"xxh3_64", hexadecimal(digest.checksum)}});
     }
-    json left_out = json::array();
-    for (const LeftOut& entry : info.left_out) left_out.push_back({{"what", entry.what}, {"why", entry.why}});
-    json root{{"regather_trace", schema_version},
-              {"scene", info.scene},
-              {"image_width", info.image_width},
-              {"image_height", info.image_height},
-              {"map", info.map},
-              {"k", info.k},
-              {"seed", info.seed},
-              {"structure", info.structure},
-              {"queries", info.queries},
-              {"photons", info.photons},
-              {"found_photons", info.found_photons},
-              {"visited_nodes", info.visited_nodes},
-              {"parameters", info.parameters},
-              {"counts", info.counts},
-              {"left_out", left_out},
-              {"columns", columns}};
+    Json::List left_out;
+    for (const LeftOut& entry : info.left_out)
+        left_out.push_back(Json::object({{"what", entry.what}, {"why", entry.why}}));
+    Json root = Json::object({{"regather_trace", schema_version},
+                              {"scene", info.scene},
+                              {"map", info.map},
+                              {"image_width", info.image_width},
+                              {"image_height", info.image_height},
+                              {"k", info.k},
+                              {"seed", info.seed},
+                              {"structure", info.structure},
+                              {"queries", info.queries},
+                              {"photons", info.photons},
+                              {"found_photons", info.found_photons},
+                              {"visited_nodes", info.visited_nodes}});
     if (info.frame) root["frame"] = *info.frame;
+    root["parameters"] = info.parameters;
+    root["counts"] = info.counts;
+    root["left_out"] = std::move(left_out);
+    root["columns"] = std::move(columns);
     write_whole(folder_ / "trace.json", root.dump(2) + "\n");
 }
 
 TraceReader::TraceReader(fs::path folder) : folder_(std::move(folder)) {
     const fs::path file = folder_ / "trace.json";
-    if (!fs::exists(file)) {
-        if (!fs::is_directory(folder_))
-            throw DataError(fmt::format("{}: found no such folder, expected a trace", folder_.string()));
-        throw DataError(
-            fmt::format("{}: found no trace.json, expected a finished trace (was the capture interrupted? "
-                        "capture again)",
-                        folder_.string()));
+    const Document document(trace_json(folder_), file.string());
+    const Field root = document.root();
+    if (const std::optional<Field> version = root.get("regather_trace");
+        version && version->value() != Json(schema_version))
+        version->fail("version " + version->found(),
+                      fmt::format("{}; capture the scene again", schema_version));
+    root.check(trace_kind);
+    info_.scene = root["scene"].text();
+    info_.image_width = small(root, "image_width", 1);
+    info_.image_height = small(root, "image_height", 1);
+    if (root.has("map")) info_.map = map_names[root["map"].word(map_names)];
+    if (root.has("frame")) info_.frame = small(root, "frame", 0);
+    info_.k = small(root, "k", 1);
+    info_.seed = whole(root, "seed");
+    info_.structure = structure_names[root["structure"].word(structure_names)];
+    info_.queries = whole(root, "queries");
+    info_.photons = whole(root, "photons");
+    info_.found_photons = whole(root, "found_photons");
+    info_.visited_nodes = whole(root, "visited_nodes");
+    info_.parameters = object_at(root, "parameters");
+    info_.counts = object_at(root, "counts");
+    for (const Field& entry : root["left_out"].elements()) {
+        entry.check(left_out_kind);
+        info_.left_out.push_back({entry["what"].text(), entry["why"].text()});
     }
-    json root;
-    try {
-        root = json::parse(read_file(file));
-    } catch (const json::exception& error) {
-        throw DataError(fmt::format("{}: found no valid JSON ({})", file.string(), error.what()));
-    }
-    const auto field = [&](std::string_view name) { return JsonField(file, root, name); };
-    const std::uint64_t version = field("regather_trace").unsigned_number();
-    if (version != schema_version)
-        throw DataError(
-            fmt::format("{}: regather_trace: found version {}, expected {}; capture the scene again",
-                        file.string(), version, schema_version));
-    info_.scene = field("scene").text();
-    info_.image_width = field("image_width").small_number();
-    info_.image_height = field("image_height").small_number();
-    if (root.contains("map")) info_.map = field("map").text();
-    if (root.contains("frame")) info_.frame = field("frame").small_number();
-    info_.k = field("k").small_number();
-    info_.seed = field("seed").unsigned_number();
-    info_.structure = field("structure").text();
-    info_.queries = field("queries").unsigned_number();
-    info_.photons = field("photons").unsigned_number();
-    info_.found_photons = field("found_photons").unsigned_number();
-    info_.visited_nodes = field("visited_nodes").unsigned_number();
-    info_.parameters = field("parameters").object();
-    info_.counts = field("counts").object();
-    for (const json& entry : field("left_out").list())
-        info_.left_out.push_back(
-            {JsonField(file, entry, "what").text(), JsonField(file, entry, "why").text()});
-
-    std::map<std::string_view, std::pair<std::string, std::uint64_t>> group_rows;
-    for (const auto& [name, value] : field("columns").object().items()) {
-        const ColumnEntry* entry = nullptr;
-        for (const ColumnEntry& candidate : table)
-            if (candidate.name == name) entry = &candidate;
-        if (!entry)
-            throw DataError(fmt::format("{}: columns: found '{}', expected a column of docs/trace_format.md",
-                                        file.string(), name));
-        ColumnDigest digest;
-        digest.rows = JsonField(file, value, "rows").unsigned_number();
-        const JsonField checksum(file, value, "xxh3_64");
-        const std::string text = checksum.text();
-        const auto [end, error] =
-            std::from_chars(text.data(), text.data() + text.size(), digest.checksum, 16);
-        if (text.size() != 16 || error != std::errc{} || end != text.data() + text.size())
-            checksum.refuse('"' + text + '"', "16 hexadecimal digits");
-        const auto [group, first] = group_rows.try_emplace(entry->group, name, digest.rows);
-        if (!first && group->second.second != digest.rows)
-            throw DataError(fmt::format("{}: columns.{}.rows: found {}, expected {} as in {}", file.string(),
-                                        name, digest.rows, group->second.second, group->second.first));
-        digests_[name] = digest;
-    }
-    for (const ColumnEntry& entry : table)
-        if (entry.required && !digests_.contains(std::string(entry.name)))
-            throw DataError(fmt::format("{}: columns: found no {}, expected every required column",
-                                        file.string(), entry.name));
+    read_columns(root["columns"]);
     const auto expect_rows = [&](std::string_view name, std::string_view total, std::uint64_t rows) {
-        const std::uint64_t found = digests_.at(std::string(name)).rows;
-        if (found != rows)
-            throw DataError(fmt::format("{}: {}: found {}, expected {} as the rows of {}", file.string(),
-                                        total, rows, found, name));
+        if (const std::uint64_t found = digests_.at(std::string(name)).rows; found != rows)
+            root[total].fail(fmt::format("{}", rows), fmt::format("{} as the rows of {}", found, name));
     };
     expect_rows("query_position", "queries", info_.queries);
     expect_rows("photon", "photons", info_.photons);
@@ -251,6 +244,26 @@ TraceReader::TraceReader(fs::path folder) : folder_(std::move(folder)) {
                                         column.size(), digest.rows));
         mapped_.emplace(name, std::move(column));
     }
+}
+
+void TraceReader::read_columns(const Field& columns) {
+    std::vector<std::string_view> names;
+    for (const ColumnEntry& entry : table) names.push_back(entry.name);
+    std::map<std::string_view, std::pair<std::string, std::uint64_t>> group_rows;
+    for (const auto& [name, column] : columns.members()) {
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            column.fail("unknown column " + in_quotes(name), alternatives(nearest_words(name, names)));
+        const ColumnEntry& entry = column_entry(name);
+        const ColumnDigest digest = digest_of(column, entry);
+        const auto [group, first] = group_rows.try_emplace(entry.group, name, digest.rows);
+        if (!first && group->second.second != digest.rows)
+            column["rows"].fail(fmt::format("{}", digest.rows),
+                                fmt::format("{} as in {}", group->second.second, group->second.first));
+        digests_[name] = digest;
+    }
+    for (const ColumnEntry& entry : table)
+        if (entry.required && !digests_.contains(std::string(entry.name)))
+            columns.fail(fmt::format("no {}", entry.name), "every required column");
 }
 
 const MappedColumn& TraceReader::open(std::string_view name, const ColumnType& type) {

@@ -2,11 +2,11 @@
 // an atomic rename. A folder without trace.json is an unfinished capture. Every column, with type and unit:
 // docs/trace_format.md.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <span>
@@ -14,9 +14,13 @@
 #include <string_view>
 #include <vector>
 
+#include "trace/folder_lock.h"
+#include "trace/json.h"
 #include "trace/npy.h"
 
 namespace regather::trace {
+
+class Field;
 
 inline constexpr int schema_version = 1;
 
@@ -29,6 +33,11 @@ struct ColumnEntry {
 std::span<const ColumnEntry> column_table();
 const ColumnEntry& column_entry(std::string_view name);  ///< UsageError for an unknown name.
 
+/// What a trace may have been walked through, by name.
+inline constexpr std::array<std::string_view, 1> structure_names{"left-balanced-kd"};
+/// The photon maps of a capture.
+inline constexpr std::array<std::string_view, 2> map_names{"global", "caustic"};
+
 struct LeftOut {
     std::string what, why;
 };
@@ -37,16 +46,16 @@ struct LeftOut {
 struct TraceInfo {
     std::string scene;
     std::uint32_t image_width = 0, image_height = 0;  ///< [pixels]
-    std::string map = "global";                       ///< Which photon map: "global" or "caustic".
+    std::string map{map_names[0]};                    ///< Which photon map: of map_names.
     std::optional<std::uint32_t> frame;               ///< Of the scene's camera path.
     std::uint32_t k = 0;
     std::uint64_t seed = 0;
-    std::string structure = "left-balanced-kd";
+    std::string structure{structure_names[0]};
     std::uint64_t queries = 0, photons = 0;
-    std::uint64_t found_photons = 0;  ///< Sum over the queries of the photons that each found.
-    std::uint64_t visited_nodes = 0;  ///< Sum over the queries of the nodes that each visited.
-    nlohmann::json parameters = nlohmann::json::object();  ///< As the capture was asked for.
-    nlohmann::json counts = nlohmann::json::object();      ///< What the capture counted: rays, energy [W] ...
+    std::uint64_t found_photons = 0;   ///< Sum over the queries of the photons that each found.
+    std::uint64_t visited_nodes = 0;   ///< Sum over the queries of the nodes that each visited.
+    Json parameters = Json::object();  ///< As the capture was asked for.
+    Json counts = Json::object();      ///< What the capture counted: rays, energy [W] ...
     std::vector<LeftOut> left_out;
 };
 
@@ -54,7 +63,8 @@ struct TraceInfo {
 class TraceWriter {
 public:
     /// Creates `folder` if needed. Throws UsageError when it holds a finished trace and `force` is false, or
-    /// other files than a trace's; a finished trace that is overwritten loses its trace.json first.
+    /// other files than a trace's, or while another process writes into it; a finished trace that is
+    /// overwritten loses its trace.json first.
     TraceWriter(std::filesystem::path folder, bool force);
 
     ColumnWriter& column(std::string_view name);  ///< Created at the first call.
@@ -62,12 +72,13 @@ public:
 
 private:
     std::filesystem::path folder_;
+    FolderLock lock_;
     std::map<std::string, ColumnWriter, std::less<>> writers_;
 };
 
 /// Opens a finished trace. Throws DataError that names file, field, found and expected when it is not one, or
-/// is of another schema version, or a required column is not listed, or a listed one is missing or has
-/// another type or row count than trace.json says.
+/// is of another schema version, structure or map, or its image is empty, or k is 0, or a required column is
+/// not listed, or a listed one is missing or has another type or row count than trace.json says.
 class TraceReader {
 public:
     explicit TraceReader(std::filesystem::path folder);
@@ -90,6 +101,7 @@ public:
     void expect_random_access(std::string_view name);
 
 private:
+    void read_columns(const Field& columns);
     const MappedColumn& open(std::string_view name, const ColumnType& type);
 
     std::filesystem::path folder_;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -36,9 +37,10 @@ public:
     Json(std::string_view text) : value_(std::string(text)) {}
     Json(const char* text) : value_(std::string(text)) {}
     Json(List list);
-    template <class T>
-    requires(!std::same_as<T, Json> && !std::same_as<T, Member>) Json(const std::vector<T>& list)
-        : Json(List(list.begin(), list.end())) {}
+    template <std::ranges::input_range Range>
+    requires(!std::convertible_to<const Range&, std::string_view> && !std::same_as<Range, Object>)
+        Json(const Range& list)
+        : Json(List(std::ranges::begin(list), std::ranges::end(list))) {}
     static Json object(std::initializer_list<Member> members = {});
 
     bool is_null() const { return std::holds_alternative<std::monostate>(value_); }

@@ -146,13 +146,15 @@ void ColumnWriter::append_bytes(std::span<const std::byte> bytes) {
     state_->bytes += bytes.size();
 }
 
-ColumnDigest ColumnWriter::finish() {
+ColumnDigest ColumnWriter::finish(OnDisk on_disk) {
     State& s = *state_;
     const ColumnDigest digest{s.bytes / s.type.row_bytes, XXH3_64bits_digest(s.hash)};
     const std::string block = header_block(s.type, digest.rows);
     if (std::fseek(s.file, 0, SEEK_SET) != 0)
         throw std::runtime_error(fmt::format("{}: cannot write: {}", s.path.string(), std::strerror(errno)));
     s.write(block.data(), block.size());
+    if (on_disk == OnDisk::before_return && (std::fflush(s.file) != 0 || ::fsync(::fileno(s.file)) != 0))
+        throw std::runtime_error(fmt::format("{}: cannot write: {}", s.path.string(), std::strerror(errno)));
     std::FILE* file = std::exchange(s.file, nullptr);
     if (std::fclose(file) != 0)
         throw std::runtime_error(fmt::format("{}: cannot write: {}", s.path.string(), std::strerror(errno)));
@@ -188,7 +190,8 @@ MappedColumn::MappedColumn(const std::filesystem::path& path, const ColumnType& 
         const std::string_view header(bytes + prefix, text_bytes);
 
         const std::string descr = value_of(header, "descr");
-        if (descr != without_blanks(type.descr)) {
+        const bool signed_64 = type.descr == column_type<std::uint64_t>().descr && descr == "'<i8'";
+        if (descr != without_blanks(type.descr) && !signed_64) {
             std::string foreign = without_blanks(type.descr);
             for (char& c : foreign)
                 if (c == '<') c = '>';
@@ -215,6 +218,15 @@ MappedColumn::MappedColumn(const std::filesystem::path& path, const ColumnType& 
             refuse(path, fmt::format("{} bytes of rows", body),
                    fmt::format("{} rows x {} bytes", rows_, type.row_bytes));
         data_ = reinterpret_cast<const std::byte*>(bytes) + prefix + text_bytes;
+        if ((prefix + text_bytes) % alignof(std::uint64_t) != 0) {
+            copy_.resize((body + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t));
+            std::memcpy(copy_.data(), data_, body);
+            data_ = reinterpret_cast<const std::byte*>(copy_.data());
+        }
+        if (signed_64)
+            for (std::uint64_t row = 0; row < rows_; ++row)
+                if (const auto value = rows<std::int64_t>()[row]; value < 0)
+                    refuse(path, fmt::format("{} in row {}", value, row), "no negative value");
     } catch (...) {
         ::munmap(map_, map_bytes_);
         throw;
@@ -230,6 +242,7 @@ MappedColumn::MappedColumn(MappedColumn&& other) noexcept {
 MappedColumn& MappedColumn::operator=(MappedColumn&& other) noexcept {
     std::swap(map_, other.map_);
     std::swap(map_bytes_, other.map_bytes_);
+    std::swap(copy_, other.copy_);
     std::swap(data_, other.data_);
     std::swap(rows_, other.rows_);
     std::swap(row_bytes_, other.row_bytes_);

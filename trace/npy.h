@@ -35,6 +35,10 @@ struct ColumnDigest {
     friend bool operator==(const ColumnDigest&, const ColumnDigest&) = default;
 };
 
+/// Whether the bytes are on the disk when a writer says so: needed where an earlier file goes for the sake of
+/// this one.
+enum class OnDisk { eventually, before_return };
+
 /// Appends rows; the header is completed by finish(). A file that was never finished has a row count of 0 and
 /// trailing bytes, which MappedColumn refuses. Throws std::runtime_error when the disk is full or the path
 /// cannot be written.
@@ -49,15 +53,17 @@ public:
         append_bytes(std::as_bytes(rows));
     }
     void append_bytes(std::span<const std::byte> bytes);
-    ColumnDigest finish();
+    ColumnDigest finish(OnDisk on_disk = OnDisk::eventually);
 
 private:
     struct State;
     std::unique_ptr<State> state_;
 };
 
-/// Maps a finished column read-only. Throws DataError (path, found, expected) for a missing file, no or a
-/// foreign header, a wrong type or shape, foreign byte order, Fortran order, and bytes missing or left over.
+/// Maps a finished column read-only; one whose header leaves its rows where no type may stand is copied
+/// instead. Throws DataError (path, found, expected) for a missing file, no or a foreign header, a wrong type
+/// or shape, foreign byte order, Fortran order, and bytes missing or left over. A column of uint64 may be one
+/// of int64, NumPy's own choice for whole numbers, when no value is negative.
 class MappedColumn {
 public:
     MappedColumn(const std::filesystem::path& path, const ColumnType& type);
@@ -77,6 +83,7 @@ public:
 private:
     void* map_ = nullptr;
     std::size_t map_bytes_ = 0;
+    std::vector<std::uint64_t> copy_;
     const std::byte* data_ = nullptr;
     std::uint64_t rows_ = 0;
     std::size_t row_bytes_ = 0;

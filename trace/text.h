@@ -16,6 +16,8 @@ std::size_t utf8_length(std::string_view text);
 /// paragraph separators, marks of writing direction) becomes \u{202e}.
 std::string shown(std::string_view text, std::size_t most_bytes = 60);
 
+inline constexpr std::size_t most_shown_path = 300;  ///< Of a path, which is worth more than a text.
+
 /// shown() in double quotes; quotes and backslashes of the text are escaped.
 std::string in_quotes(std::string_view text, std::size_t most_bytes = 60);
 

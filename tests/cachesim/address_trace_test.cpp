@@ -267,12 +267,23 @@ TEST_F(AddressTraceTest, ColumnsMustHaveTheSameRows) {
 }
 
 TEST_F(AddressTraceTest, ForeignTypesAreRefused) {
-    const path signed_addresses =
-        bytes_as("signed.npy", {"'<i8'", "", 8, "int64"}, std::vector<std::uint8_t>(16));
-    EXPECT_THAT(refusal({signed_addresses}), HasSubstr("signed.npy: found type '<i8'"));
-    EXPECT_THAT(refusal({addresses({1, 2}), signed_addresses, {}}),
-                EndsWith("signed.npy: found type '<i8', expected uint8 or uint32 or uint64, little-endian"));
+    const path floats = bytes_as("floats.npy", {"'<f8'", "", 8, "float64"}, std::vector<std::uint8_t>(16));
+    EXPECT_THAT(refusal({floats}), HasSubstr("floats.npy: found type '<f8'"));
+    EXPECT_THAT(refusal({addresses({1, 2}), floats, {}}),
+                EndsWith("floats.npy: found type '<f8', expected uint8 or uint32 or uint64, little-endian"));
     EXPECT_THAT(refusal({addresses({1, 2}), text("no column"), {}}), HasSubstr("expected a .npy"));
+}
+
+// What numpy.array([64, 130]) is, without a dtype.
+TEST_F(AddressTraceTest, SignedColumnsWithoutNegativesAreTaken) {
+    const std::vector<std::uint8_t> bytes{64, 0, 0, 0, 0, 0, 0, 0, 130, 0, 0, 0, 0, 0, 0, 0};
+    const path where = bytes_as("where.npy", {"'<i8'", "", 8, "int64"}, bytes);
+    EXPECT_EQ(read({where, where, {}}),
+              read({addresses({64, 130}), column<std::uint8_t>("s.npy", {64, 130}), {}}));
+    std::vector<std::uint8_t> negative = bytes;
+    negative[15] = 0x80;
+    EXPECT_THAT(refusal({bytes_as("bad.npy", {"'<i8'", "", 8, "int64"}, negative)}),
+                HasSubstr("bad.npy: found -9223372036854775678 in row 1, expected no negative value"));
 }
 
 TEST_F(AddressTraceTest, ThePositionEndsAtTheTotal) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <regex>
 
 #include "tests/scratch.h"
 #include "trace/error.h"
@@ -78,6 +79,11 @@ TEST(Machine, NeedsNoMoreThanAGeometry) {
     EXPECT_FALSE(machine.dram);
 }
 
+/// A message less the line of the value that it is about.
+std::string without_line(const std::string& message) {
+    return std::regex_replace(message, std::regex(R"(: line \d+, (?!column))"), ": ");
+}
+
 /// The message for `good` with one text replaced by another.
 std::string refusal(const std::string& from, const std::string& to) {
     std::string text = good;
@@ -87,7 +93,7 @@ std::string refusal(const std::string& from, const std::string& to) {
     try {
         parse_machine(text, "toy.json");
     } catch (const trace::DataError& error) {
-        return error.what();
+        return without_line(error.what());
     }
     return "none";
 }
@@ -97,8 +103,9 @@ TEST(Machine, RefusesABadFileWithOneLineThatNamesTheField) {
         std::string from, to, message;
     } cases[] = {
         {R"("policy": "plru")", R"("polcy": "plru")",
-         "levels[0]: found unknown key \"polcy\", expected \"policy\" (keys: name, size_bytes,"},
-        {R"("name": "toy")", R"("nam": "toy")", "found unknown key \"nam\", expected \"name\""},
+         "levels[0].polcy: found unknown key \"polcy\", expected \"policy\" (keys of a level: name, "
+         "size_bytes,"},
+        {R"("name": "toy")", R"("nam": "toy")", "nam: found unknown key \"nam\", expected \"name\""},
         {R"("name": "toy",)", "", "name: found nothing, expected a name of 1 to 64"},
         {R"("name": "toy")", R"("name": "a b")", "name: found \"a b\", expected a name of 1 to 64"},
         {R"("name": "toy")", R"("name": "")", "name: found \"\", expected a name of 1 to 64"},
@@ -113,9 +120,8 @@ TEST(Machine, RefusesABadFileWithOneLineThatNamesTheField) {
         {R"("ways": 4)", R"("ways": 1e30)", "levels[0].ways: found 1e+30, expected a whole number of ways"},
         {R"("ways": 4)", R"("ways": 4294967296)",
          "levels[0].ways: found 4294967296, expected a whole number of ways from 1 up, or \"full\", at most"},
-        {R"("ways": 4)", R"("ways": 99999999999999999999999)",
-         "levels[0].ways: found 9.999999999999999e+22, expected"},
-        {R"("ways": 4)", R"("ways": 1e999)", "found a number that no 64 bits hold"},
+        {R"("ways": 4)", R"("ways": 99999999999999999999999)", "levels[0].ways: found 1e+23, expected"},
+        {R"("ways": 4)", R"("ways": 1e999)", "line 7, column 75: found 1e999, expected a number from -1.7"},
         {R"("ways": 4)", R"("ways": "all")",
          "levels[0].ways: found \"all\", expected a whole number of ways"},
         {R"("ways": 4)", R"("ways": true)", "levels[0].ways: found true, expected"},
@@ -150,7 +156,7 @@ TEST(Machine, RefusesABadFileWithOneLineThatNamesTheField) {
         {R"("victim_lines": 3)", R"("victim_lines": 1000000)",
          "levels[0].victim_lines: found 1000000, expected 0 to 4096"},
         {R"("ways": "a manual")", R"("way": "a manual")",
-         "levels[0].sources: found unknown key \"way\", expected \"ways\""},
+         "levels[0].sources.way: found unknown key \"way\", expected \"ways\""},
         {R"("ways": "a manual")", R"("ways": 7)", "levels[0].sources.ways: found 7, expected a text"},
         {R"("banks": 8)", R"("banks": 6)", "dram.banks: found 6, expected a power of two from 1 to 1024"},
         {R"("channels": 3)", R"("channels": 4000000000)",
@@ -158,9 +164,12 @@ TEST(Machine, RefusesABadFileWithOneLineThatNamesTheField) {
         {R"("read_pj": 10, )", "", "dram.read_pj: found nothing, expected a whole number of picojoules"},
         {R"("read_pj": 10)", R"("read_pj": 0.5)",
          "dram.read_pj: found 0.5, expected a whole number of picojoules"},
-        {R"("read_pj": 10)", R"("read_pj": 10, "read_pj": 11)", "\"read_pj\": found the key a second time"},
-        {R"("dram": {)", R"("dram": [{}], "dram2": {)", "found unknown key \"dram2\", expected \"dram\""},
-        {R"("channels": 3)", R"("channels": [[[[[[[[[[3]]]]]]]]]])", "found objects or lists 9 deep"},
+        {R"("read_pj": 10)", R"("read_pj": 10, "read_pj": 11)",
+         "line 16, column 5: found the key \"read_pj\" a second time"},
+        {R"("dram": {)", R"("dram": [{}], "dram2": {)",
+         "dram2: found unknown key \"dram2\", expected \"dram\""},
+        {R"("channels": 3)", R"("channels": [[[[[[[[[[3]]]]]]]]]])",
+         "dram.channels: found a list of 1, expected a whole number"},
         {R"("name": "toy",)", R"("name": "toy")", "line 3, column 11: "},
     };
     for (const auto& [from, to, message] : cases) {
@@ -180,15 +189,16 @@ TEST(Machine, RefusesTextThatIsNoMachine) {
         return "none";
     };
     EXPECT_THAT(message(""), StartsWith("m.json: line 1, column 1: "));
-    EXPECT_EQ(message("[]"), "m.json: found a list of 0, expected an object");
-    EXPECT_EQ(message("3"), "m.json: found 3, expected an object");
+    EXPECT_EQ(message("[]"), "m.json: line 1: found an empty list, expected an object");
+    EXPECT_EQ(message("3"), "m.json: line 1: found 3, expected an object");
     EXPECT_EQ(message(R"({"name": "m", "levels": []})"),
-              "m.json: levels: found a list of 0, expected a list of 1 to 4 levels, nearest first");
+              "m.json: line 1, levels: found an empty list, expected a list of 1 to 4 levels, nearest first");
     EXPECT_EQ(message(R"({"name": "m", "levels": {}})"),
-              "m.json: levels: found an object, expected a list of 1 to 4 levels, nearest first");
-    EXPECT_EQ(message(R"({"name": "m", "levels": [7]})"), "m.json: levels[0]: found 7, expected an object");
+              "m.json: line 1, levels: found an object, expected a list of 1 to 4 levels, nearest first");
+    EXPECT_EQ(message(R"({"name": "m", "levels": [7]})"),
+              "m.json: line 1, levels[0]: found 7, expected an object");
     EXPECT_EQ(message(std::string(1'000'000, '[')),
-              "m.json: found objects or lists 9 deep, expected at most 8");
+              "m.json: line 1, column 65: found objects or lists 65 deep, expected at most 64");
     EXPECT_THAT(message("{\"name\": \"\xff\"}"), StartsWith("m.json: line 1, column "));
     // Cut anywhere, a file is refused: no part of one passes for a whole one.
     for (std::size_t length = 0; length < good.size(); ++length)
@@ -214,9 +224,10 @@ TEST(Machine, IsFoundByItsNameOrInAFile) {
     EXPECT_THAT(message("paper-128"),
                 StartsWith("usage: found the unknown machine 'paper-128', expected \"paper-128k\""));
     EXPECT_EQ(message((scratch / "none.json").string()),
-              "data: " + (scratch / "none.json").string() + ": cannot be read");
-    EXPECT_THAT(message((scratch / "").string()), HasSubstr("cannot be read"));
-    EXPECT_THAT(message("/dev/zero"), HasSubstr("found more than 1048576 bytes, expected a machine file"));
+              "data: " + (scratch / "none.json").string() +
+                  ": found no such file, expected a file of at most 1048576 bytes");
+    EXPECT_THAT(message((scratch / "").string()), HasSubstr("found a folder"));
+    EXPECT_THAT(message("/dev/zero"), HasSubstr("found a device or a pipe"));
 }
 
 // ---- the embedded ones ----

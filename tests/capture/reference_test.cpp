@@ -4,8 +4,10 @@
 #include <unistd.h>
 
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <string>
 
 #include "capture/capture.h"
@@ -87,12 +89,12 @@ TEST_F(ReferenceTest, AHalfWrittenSaveLeavesTheOneBefore) {
     std::ofstream(folder / "moments-5.npy.partial") << "half";
     EXPECT_EQ(load_reference(folder).samples, 2u);
     std::ofstream(folder / "moments-5.npy") << "whole, but not named";
-    std::ofstream(folder / "partial-reference.json") << "{";
+    std::ofstream(folder / "reference.json.partial") << "{";
     EXPECT_EQ(load_reference(folder).pixels, reference.pixels);
     save(reference, folder);  // and the next one cleans up
     EXPECT_FALSE(fs::exists(folder / "moments-5.npy"));
     EXPECT_FALSE(fs::exists(folder / "moments-5.npy.partial"));
-    EXPECT_FALSE(fs::exists(folder / "partial-reference.json"));
+    EXPECT_FALSE(fs::exists(folder / "reference.json.partial"));
     EXPECT_EQ(load_reference(folder).samples, 2u);
 }
 
@@ -114,7 +116,7 @@ TEST_F(ReferenceTest, OfAnotherSceneSizeOrSeedIsRefused) {
 }
 
 TEST_F(ReferenceTest, DamageIsNamed) {
-    expect_damaged("reference.json: cannot be opened");
+    expect_damaged("reference.json: found no such file");
     Reference reference(key);
     reference.add(tracer, 2);
     save(reference, folder);
@@ -131,13 +133,13 @@ TEST_F(ReferenceTest, DamageIsNamed) {
     expect_damaged("moments: found \"../moments-2\"");
     save(reference, folder);
     replace_in_state("\"seconds\"", "\"hours\"");
-    expect_damaged("seconds: not there");
+    expect_damaged("hours: found unknown key \"hours\"");
     save(reference, folder);
     replace_in_state("\"reference_version\": 1", "\"reference_version\": 2");
     expect_damaged("reference_version: found 2, expected 1");
     save(reference, folder);
     std::ofstream(folder / "reference.json") << "[1, 2";
-    expect_damaged("found no JSON object");
+    expect_damaged("reference.json: line 1, column 6: found the end of the file");
     save(reference, folder);
     std::fstream file(folder / "moments-2.npy", std::ios::in | std::ios::out | std::ios::binary);
     file.seekp(-5, std::ios::end);
@@ -146,6 +148,45 @@ TEST_F(ReferenceTest, DamageIsNamed) {
     expect_damaged("altered or damaged");
     fs::resize_file(folder / "moments-2.npy", 1000);
     EXPECT_THROW(load_reference(folder), trace::DataError);
+}
+
+TEST_F(ReferenceTest, SamplesAreHeldAgainstTheMoments) {
+    Reference reference(key);
+    reference.add(tracer, 2);
+    save(reference, folder);
+    replace_in_state("\"samples\": 2", "\"samples\": 3");
+    expect_damaged("moments: found \"moments-2.npy\", expected \"moments-3.npy\"");
+    save(reference, folder);
+    replace_in_state("\"paths\": 216", "\"paths\": 215");
+    expect_damaged("paths: found 215, expected 2 samples of each of 108 pixels");
+    fs::remove_all(folder);
+    fs::create_directories(folder / "reference.json");
+    expect_damaged("reference.json: found a folder");
+}
+
+/// Of two samples that are not negative, with mean m, the squares are 2 m^2 at most: 0 and 2 m.
+TEST_F(ReferenceTest, MomentsThatNoSamplesHaveAreRefused) {
+    Reference reference(key);
+    reference.add(tracer, 2);
+    Moments& pixel = reference.pixels[5];
+    const auto save_with = [&](double mean, double squares) {
+        pixel.mean[1] = mean;
+        pixel.squares[1] = squares;
+        save(reference, folder);
+    };
+    save_with(3, 18);
+    EXPECT_EQ(load_reference(folder).pixels[5].mean[1], 3);
+    const std::string where = "moments-2.npy: row 5, channel 1: found a mean of ";
+    save_with(3, 18.01);
+    expect_damaged(where + "3 and squares of 18.01, expected those of 2 samples that are not negative");
+    for (const auto& [mean, squares] : {std::pair{-3.0, 1.0},
+                                        {std::nan(""), 1.0},
+                                        {3.0, std::nan("")},
+                                        {3.0, -1.0},
+                                        {std::numeric_limits<double>::infinity(), 1.0}}) {
+        save_with(mean, squares);
+        expect_damaged(where);
+    }
 }
 
 /// The spread of the mean over many seeds is what one reference says of itself.

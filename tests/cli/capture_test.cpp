@@ -41,6 +41,37 @@ TEST(Capture, TheSameIsKeptAndOthersNeedForce) {
     EXPECT_EQ(contents(scratch / "box"), first);
 }
 
+TEST(Capture, WhileAnotherProcessWritesIntoTheFolderItIsRefused) {
+    const Scratch scratch;
+    {
+        const trace::FolderLock other(scratch / "box/trace");
+        expect_refused(bad_usage, small_capture(scratch / "box"), {"box/trace: another process is writing"});
+        expect_refused(bad_usage, small_capture(scratch / "box") + std::vector<std::string>{"--force"},
+                       {"box/trace: another process is writing"});
+        EXPECT_TRUE(contents(scratch / "box").empty());
+    }
+    expect_done(small_capture(scratch / "box"));
+}
+
+// Whatever the two do at the same time, the trace is that of one of them, whole.
+TEST(Capture, TwoAtOnceLeaveOneWholeTrace) {
+    const Scratch scratch;
+    const auto words = [&](const char* seed) {
+        return small_capture(scratch / "box") + std::vector<std::string>{"--seed", seed};
+    };
+    Outcome first, second;
+    std::thread other([&] { first = regather(words("1")); });
+    second = regather(words("2"));
+    other.join();
+    EXPECT_TRUE(first.exit_code == 0 || second.exit_code == 0) << first.err << second.err;
+    for (const Outcome* outcome : {&first, &second})
+        if (outcome->exit_code != 0) {
+            EXPECT_EQ(outcome->exit_code, bad_usage) << outcome->err;
+            EXPECT_EQ(std::count(outcome->err.begin(), outcome->err.end(), '\n'), 1) << outcome->err;
+        }
+    expect_done({"info", (scratch / "box/trace").string(), "--verify"});
+}
+
 TEST(Capture, AKeptTraceWithoutItsImageIsNotCalledFinished) {
     const Scratch scratch;
     expect_done(small_capture(scratch / "box"));

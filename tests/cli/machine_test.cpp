@@ -67,9 +67,9 @@ TEST(MachineCommand, RefusesBadFilesAndUnknownNames) {
     text.replace(text.find("\"ways\": 2"), 9, "\"ways\": 0");
     write(scratch / "bad.json", text);
     const std::string trace = (scratch / "a.din").string(), bad = (scratch / "bad.json").string();
-    expect_refused(bad_data, {"machines", bad}, {"bad.json: levels[1].ways: found 0, expected"});
-    expect_refused(bad_data, {"cachesim", trace, "--machine", bad}, {"bad.json: levels[1].ways: found 0"});
-    expect_refused(bad_data, {"machines", (scratch / "no.json").string()}, {"no.json: cannot be read"});
+    expect_refused(bad_data, {"machines", bad}, {"bad.json: line ", ", levels[1].ways: found 0, expected"});
+    expect_refused(bad_data, {"cachesim", trace, "--machine", bad}, {", levels[1].ways: found 0"});
+    expect_refused(bad_data, {"machines", (scratch / "no.json").string()}, {"no.json: found no such file"});
     expect_refused(bad_usage, {"machines", "gpu-a10"}, {"unknown machine 'gpu-a10'", "\"gpu-a100\""});
     expect_refused(bad_usage, {"cachesim", trace, "--machine", ""}, {"--machine", "''"});
     expect_refused(bad_usage, {"cachesim", trace, "--machine", "paper-128k,"}, {"unknown machine ''"});

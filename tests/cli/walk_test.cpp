@@ -131,6 +131,14 @@ TEST_F(Walk, APixelWithoutAnImageIsRefused) {
     refused({"query_pixel.npy", "row 3", "4294967295"});
 }
 
+TEST_F(Walk, AColumnThatNobodyReadsIsRefusedWithTheNearestName) {
+    column("query_wieght", std::vector<Vec3>{{1, 1, 1}});
+    refused({"found an unknown column \"query_wieght\", expected \"query_weight\"", "query_leaf_bvh"});
+    fs::remove(columns_ / "query_wieght.npy");
+    write(columns_ / "notes.txt", "not a column");
+    expect_done(words());
+}
+
 TEST_F(Walk, AFinishedTraceOutlivesBadColumns) {
     expect_done(words());
     const auto before = contents(trace_);

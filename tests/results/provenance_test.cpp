@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "tests/results/folder.h"
 #include "trace/file.h"
 
@@ -14,7 +12,7 @@ TEST(Provenance, StandsBesideItsCsvAndHoldsWhatMadeIt) {
     const Folder folder;
     const Provenance provenance{
         {"/somewhere/bin/regather", "run", "a \"b\".json"}, "0.1.0", "abc123", "0011ff"};
-    write_provenance(folder / "rows.csv", provenance, {{"k", 100}, {"width", 512}});
+    write_provenance(folder / "rows.csv", provenance, trace::Json::object({{"k", 100}, {"width", 512}}));
     EXPECT_EQ(trace::read_file(folder / "rows.json"), R"({
   "results": "rows.csv",
   "command_line": [
@@ -37,9 +35,9 @@ TEST(Provenance, StandsBesideItsCsvAndHoldsWhatMadeIt) {
 TEST(Provenance, ArgumentsThatAreNoUtf8DoNotLoseTheRun) {
     const Folder folder;
     write_provenance(folder / "rows.csv", {{"regather", "\xFF"}, "", "", ""}, nullptr);
-    const auto read = nlohmann::json::parse(trace::read_file(folder / "rows.json"));
-    EXPECT_EQ(read.at("command_line").at(1), "\uFFFD");
-    EXPECT_TRUE(read.at("trace_parameters").is_null());
+    const trace::Json read = trace::parse_json(trace::read_file(folder / "rows.json"), "rows.json");
+    EXPECT_EQ(*read.find("command_line")->list()->at(1).text(), "\uFFFD");
+    EXPECT_TRUE(read.find("trace_parameters")->is_null());
 }
 
 }  // namespace

@@ -80,6 +80,16 @@ TEST(File, AFileThatCannotBeWrittenIsAsItWas) {
                 HasSubstr("x/y: cannot be written"));
 }
 
+TEST(File, WhatIsThereIsOverwrittenOnlyByForce) {
+    const Scratch scratch;
+    const std::vector<std::filesystem::path> both{scratch / "a", scratch / "b"};
+    EXPECT_NO_THROW(refuse_to_overwrite(both, false));
+    std::filesystem::create_symlink("nowhere", scratch / "b");  // a rename would replace it
+    EXPECT_EQ(message<UsageError>([&] { refuse_to_overwrite(both, false); }),
+              (scratch / "b").string() + ": exists; --force overwrites it");
+    EXPECT_NO_THROW(refuse_to_overwrite(both, true));
+}
+
 TEST(File, TheSecondOfTwoWritersIsRefused) {
     const Scratch scratch;
     const int other = ::open((scratch / "x.partial").c_str(), O_WRONLY | O_CREAT, 0600);

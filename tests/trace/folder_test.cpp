@@ -1,12 +1,18 @@
 #include "trace/folder.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <functional>
+#include <regex>
+#include <set>
 #include <sstream>
 
 #include "tests/scratch.h"
+#include "trace/file.h"
 
 namespace regather::trace {
 namespace {
@@ -26,6 +32,7 @@ TraceInfo write_small(const std::filesystem::path& folder) {
     info.scene = "small";
     info.image_width = 2;
     info.image_height = 1;
+    info.k = 7;
     info.queries = 2;
     info.photons = 3;
     info.left_out.push_back({"query_direction", "nobody asked"});
@@ -115,23 +122,51 @@ TEST(TraceFolder, AColumnThatWasLeftOutIsRefusedWithTheReason) {
 }
 
 TEST(TraceFolder, InconsistentJsonIsRefusedByField) {
-    const auto refused_after = [](const char* from, const char* to) {
+    const auto refused = [](const char* from, const char* to, const std::string& words) {
         const Scratch scratch;
         write_small(scratch / "t");
         replace_in_file(scratch / "t/trace.json", from, to);
-        return refusal(scratch / "t");
+        const std::string message = refusal(scratch / "t");
+        EXPECT_NE(message.find(words), std::string::npos) << message;
+        EXPECT_NE(message.find("trace.json: line "), std::string::npos) << message;
     };
-    EXPECT_NE(
-        refused_after("\"regather_trace\": 1", "\"regather_trace\": 2").find("found version 2, expected 1"),
-        std::string::npos);
-    EXPECT_NE(refused_after("\"queries\": 2", "\"queries\": 3").find("queries: found 3, expected 2"),
-              std::string::npos);
-    EXPECT_NE(refused_after("\"queries\": 2", "\"queries\": -2").find("not negative"), std::string::npos);
-    EXPECT_NE(refused_after("\"photons\": 3", "\"photons\": \"x\"").find("photons: found \"x\""),
-              std::string::npos);
-    EXPECT_NE(refused_after("\"seed\"", "\"sed\"").find("seed: found nothing"), std::string::npos);
-    EXPECT_NE(refused_after("\"walk\"", "\"wlak\"").find("'wlak'"), std::string::npos);
-    EXPECT_NE(refused_after("{", "").find("no valid JSON"), std::string::npos);
+    for (const char* const other : {"0", "2", "-1", "1.5", "\"1\"", "18446744073709551617"})
+        refused("\"regather_trace\": 1", (std::string("\"regather_trace\": ") + other).c_str(),
+                ", expected 1; capture the scene again");
+    refused("\"regather_trace\": 1,", "", "regather_trace: found nothing");
+    refused("\"queries\": 2", "\"queries\": 3", "queries: found 3, expected 2 as the rows of query_position");
+    refused("\"photons\": 3", "\"photons\": 2", "photons: found 2, expected 3 as the rows of photon");
+    refused("\"queries\": 2", "\"queries\": -2",
+            "queries: found -2, expected a whole number that is not negative");
+    refused("\"photons\": 3", "\"photons\": \"x\"", "photons: found \"x\"");
+    refused("\"seed\"", "\"sed\"", "sed: found unknown key \"sed\", expected \"seed\"");
+    refused("\"walk\"", "\"wlak\"", "columns.wlak: found unknown column \"wlak\", expected \"walk\"");
+    refused("{", "", "column 14: found ':', expected the end of the file");
+    refused("\"image_width\": 2", "\"image_width\": 0",
+            "image_width: found 0, expected a whole number of pixels from 1");
+    refused("\"image_height\": 1", "\"image_height\": 4294967296",
+            "image_height: found 4294967296, expected");
+    refused("\"k\": 7", "\"k\": 0", "k: found 0, expected a whole number from 1 up");
+    refused("\"global\"", "\"local\"", "map: found \"local\", expected \"global\" or \"caustic\"");
+    refused("left-balanced-kd", "bvh4", "structure: found \"bvh4\", expected \"left-balanced-kd\"");
+    refused("\"uint8\"", "\"uint16\"", "columns.walk.type: found \"uint16\", expected \"uint8\"");
+    refused("\"what\"", "\"which\"", "left_out[0].which: found unknown key \"which\", expected \"what\"");
+}
+
+TEST(TraceFolder, ColumnsOfOneGroupHaveTheSameNumberOfRows) {
+    const Scratch scratch;
+    write_small(scratch / "t");
+    const ColumnDigest three =
+        write_column<std::uint32_t>(scratch / "t/query_pixel.npy", std::vector<std::uint32_t>{0, 1, 1});
+    std::string json = read_file(scratch / "t/trace.json");
+    json = std::regex_replace(json, std::regex("(\"query_pixel\": \\{\\s*\"rows\": )2"), "$013");
+    ASSERT_NE(json.find("\"rows\": 3", json.find("query_pixel")), std::string::npos);
+    ASSERT_EQ(three.rows, 3u);
+    write_whole(scratch / "t/trace.json", json);
+    const std::string message = refusal(scratch / "t");
+    EXPECT_NE(message.find("columns.query_position.rows: found 2, expected 3 as in query_pixel"),
+              std::string::npos)
+        << message;
 }
 
 TEST(TraceFolder, AFinishedTraceIsNotOverwrittenUnasked) {
@@ -154,9 +189,68 @@ TEST(TraceFolder, TheChecksumOfATraceChangesWithAnyColumn) {
     const Scratch scratch;
     write_small(scratch / "a");
     write_small(scratch / "b");
-    EXPECT_EQ(TraceReader(scratch / "a").checksum(), TraceReader(scratch / "b").checksum());
-    replace_in_file(scratch / "b/trace.json", "\"xxh3_64\": \"", "\"xxh3_64\": \"0");
-    EXPECT_NE(refusal(scratch / "b").find("16 hexadecimal digits"), std::string::npos);
+    const std::string checksum = TraceReader(scratch / "a").checksum();
+    EXPECT_EQ(TraceReader(scratch / "b").checksum(), checksum);
+    std::set<std::string> all{checksum};
+    for (const char* const name : {"photon", "query_position", "query_pixel", "query_walk_bytes", "walk"}) {
+        // The column's last byte is another one, and trace.json has the checksum that belongs to it.
+        write_small(scratch / name);
+        const std::filesystem::path column = scratch / name / (std::string(name) + ".npy");
+        std::string bytes = read_file(column);
+        bytes.back() = static_cast<char>(bytes.back() ^ 1);
+        write_whole(column, bytes);
+        const std::string message = refusal(scratch / name, [](TraceReader& reader) { reader.verify_all(); });
+        std::smatch found;
+        ASSERT_TRUE(std::regex_search(message, found, std::regex("found checksum (\\w+), expected (\\w+)")))
+            << message;
+        replace_in_file(scratch / name / "trace.json", found[2], found[1]);
+        EXPECT_EQ(refusal(scratch / name, [](TraceReader& reader) { reader.verify_all(); }), "accepted");
+        all.insert(TraceReader(scratch / name).checksum());
+    }
+    EXPECT_EQ(all.size(), 6u);
+}
+
+TEST(TraceFolder, ChecksumsAreSixteenHexadecimalDigits) {
+    const Scratch scratch;
+    write_small(scratch / "t");
+    replace_in_file(scratch / "t/trace.json", "\"xxh3_64\": \"", "\"xxh3_64\": \"0");
+    EXPECT_NE(refusal(scratch / "t").find("16 hexadecimal digits"), std::string::npos);
+}
+
+TEST(TraceFolder, OneWriterAtATime) {
+    const Scratch scratch;
+    {
+        const TraceWriter first(scratch / "t", false);
+        try {
+            const TraceWriter second(scratch / "t", true);
+            FAIL() << "two writers";
+        } catch (const UsageError& error) {
+            EXPECT_NE(std::string(error.what()).find("t: another process is writing into this folder"),
+                      std::string::npos);
+        }
+        const TraceWriter elsewhere(scratch / "u", false);
+    }
+    write_small(scratch / "t");  // nothing is left of the lock
+    EXPECT_EQ(refusal(scratch / "t"), "accepted");
+}
+
+TEST(TraceFolder, AHeldFolderIsFreeWhenItsProcessIsKilled) {
+    const Scratch scratch;
+    int ready[2];
+    ASSERT_EQ(::pipe(ready), 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const FolderLock lock(scratch / "t");
+        if (::write(ready[1], "x", 1) != 1) ::_exit(1);
+        ::pause();
+    }
+    char byte = 0;
+    ASSERT_EQ(::read(ready[0], &byte, 1), 1);
+    EXPECT_THROW(FolderLock(scratch / "t"), UsageError);
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    EXPECT_NO_THROW(FolderLock(scratch / "t"));
+    EXPECT_TRUE(std::filesystem::is_empty(scratch / "t"));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -62,6 +63,51 @@ TEST(Npy, HeadersOfOtherWritersAreRead) {
     const MappedColumn column(scratch / "a.npy", column_type<std::uint32_t>());
     ASSERT_EQ(column.size(), 3u);
     EXPECT_EQ(column.rows<std::uint32_t>()[2], 9u);
+}
+
+/// A file as another writer makes it, with a header of any length.
+void write_npy(const std::filesystem::path& path, const std::string& dictionary, std::size_t header_bytes,
+               std::span<const std::uint64_t> rows) {
+    std::string header = dictionary;
+    header.resize(header_bytes - 1, ' ');
+    header += '\n';
+    std::string file("\x93NUMPY\x01\x00", 8);
+    file += {static_cast<char>(header.size() & 0xff), static_cast<char>(header.size() >> 8)};
+    file += header;
+    file.append(reinterpret_cast<const char*>(rows.data()), rows.size_bytes());
+    std::ofstream(path, std::ios::binary) << file;
+}
+
+TEST(Npy, RowsBehindAHeaderOfAnyLengthAreAligned) {
+    const Scratch scratch;
+    const std::vector<std::uint64_t> rows{1, ~std::uint64_t{0}, 0x0123456789abcdef};
+    for (std::size_t header_bytes = 60; header_bytes < 76; ++header_bytes) {
+        write_npy(scratch / "a.npy", "{'descr': '<u8', 'fortran_order': False, 'shape': (3,)}", header_bytes,
+                  rows);
+        MappedColumn column(scratch / "a.npy", column_type<std::uint64_t>());
+        const MappedColumn moved = std::move(column);
+        const std::span<const std::uint64_t> found = moved.rows<std::uint64_t>();
+        EXPECT_EQ(reinterpret_cast<std::uintptr_t>(found.data()) % alignof(std::uint64_t), 0u)
+            << header_bytes;
+        EXPECT_TRUE(std::ranges::equal(found, rows)) << header_bytes;
+        EXPECT_EQ(moved.checksum(), write_column<std::uint64_t>(scratch / "b.npy", rows).checksum);
+    }
+}
+
+TEST(Npy, Int64IsTakenAsUint64WhenNoValueIsNegative) {
+    const Scratch scratch;
+    const std::string dictionary = "{'descr': '<i8', 'fortran_order': False, 'shape': (3,)}";
+    write_npy(scratch / "a.npy", dictionary, 118,
+              std::vector<std::uint64_t>{5, 0, (std::uint64_t{1} << 63) - 1});
+    EXPECT_EQ(MappedColumn(scratch / "a.npy", column_type<std::uint64_t>()).rows<std::uint64_t>()[2],
+              (std::uint64_t{1} << 63) - 1);
+    write_npy(scratch / "a.npy", dictionary, 118, std::vector<std::uint64_t>{5, ~std::uint64_t{2}, 0});
+    EXPECT_NE(message_of(scratch / "a.npy", column_type<std::uint64_t>())
+                  .find("a.npy: found -3 in row 1, expected no negative value"),
+              std::string::npos);
+    EXPECT_NE(
+        message_of(scratch / "a.npy", column_type<std::uint32_t>()).find("found type '<i8', expected '<u4'"),
+        std::string::npos);
 }
 
 TEST(Npy, DamageIsRefusedWithTheFileWhatWasFoundAndWhatWasExpected) {

@@ -1,0 +1,173 @@
+#include "replay/verification.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "replay/walk_run.h"
+#include "replay/walk_store.h"
+#include "spatial/photon_kd.h"
+#include "spatial/recording.h"
+#include "trace/error.h"
+
+namespace regather::replay {
+
+namespace {
+
+using trace::Vec3;
+
+constexpr double unit_tolerance = 1e-3;
+
+class Verification {
+public:
+    explicit Verification(trace::TraceReader& trace) : trace_(trace), info_(trace.info()) {}
+
+    Verified run(const QueriesDone& progress) {
+        trace_.verify_all();
+        const spatial::PhotonKd tree(trace_.column<trace::Photon>("photon"));
+        if (const std::uint32_t node = spatial::first_disorder(tree); node != tree.size())
+            refuse("photon", node, "a photon at no finite place or on the wrong side of a split",
+                   "a left-balanced kd-tree");
+        check_queries();
+        for (const trace::ColumnEntry& entry : trace::column_table())
+            if (entry.name.starts_with("ray_")) check_rays(entry.name);
+        check_walks();
+        check_searches(tree, progress);
+        return verified_;
+    }
+
+private:
+    [[noreturn]] void refuse(std::string_view column, std::uint64_t row, const std::string& found,
+                             const std::string& expected) const {
+        throw trace::DataError(fmt::format("{}: row {}: found {}, expected {}",
+                                           (trace_.folder() / fmt::format("{}.npy", column)).string(), row,
+                                           found, expected));
+    }
+    /// Of trace.json.
+    [[noreturn]] void refuse(std::string_view field, std::uint64_t found, const std::string& expected) const {
+        throw trace::DataError(fmt::format("{}: {}: found {}, expected {}",
+                                           (trace_.folder() / "trace.json").string(), field, found,
+                                           expected));
+    }
+    template <class T, class Fits>
+    void check_rows(std::string_view column, const std::string& expected, const Fits& fits) {
+        if (!trace_.has(column)) return;
+        const std::span<const T> rows = trace_.column<T>(column);
+        for (std::uint64_t row = 0; row < rows.size(); ++row)
+            if (!fits(rows[row])) refuse(column, row, text(rows[row]), expected);
+    }
+    static std::string text(Vec3 v) { return fmt::format("{} {} {}", v.x, v.y, v.z); }
+    static std::string text(float x) { return fmt::format("{}", x); }
+    static std::string text(std::uint32_t n) { return fmt::format("{}", n); }
+
+    void check_pixels(std::string_view column) {
+        const std::uint64_t pixels = std::uint64_t{info_.image_width} * info_.image_height;
+        check_rows<std::uint32_t>(column,
+                                  fmt::format("a pixel below {} x {}", info_.image_width, info_.image_height),
+                                  [&](std::uint32_t pixel) { return pixel < pixels; });
+    }
+    void check_directions(std::string_view column) {
+        check_rows<Vec3>(column, "a vector of length 1",
+                         [](Vec3 v) { return std::fabs(trace::length(v) - 1) <= unit_tolerance; });
+    }
+    void check_labels(const char* column, const char* leaves) {
+        const trace::Json* const count = info_.counts.find(leaves);
+        if (!count || !count->whole()) return;
+        check_rows<std::uint32_t>(
+            column, fmt::format("a leaf below {}, as {} in trace.json says", *count->whole(), leaves),
+            [&](std::uint32_t label) { return label < *count->whole(); });
+    }
+
+    void check_queries() {
+        check_pixels("query_pixel");
+        check_rows<Vec3>("query_weight", "finite numbers", [](Vec3 v) { return trace::is_finite(v); });
+        check_directions("query_direction");
+        check_labels("query_leaf_kd", "leaves_kd");
+        check_labels("query_leaf_bvh", "leaves_bvh");
+        const std::span<const Vec3> positions = trace_.column<Vec3>("query_position");
+        verified_.queries_nowhere = static_cast<std::uint64_t>(
+            std::count_if(positions.begin(), positions.end(), [](Vec3 v) { return !trace::is_finite(v); }));
+    }
+
+    void check_rays(std::string_view column) {
+        if (column.ends_with("_pixel")) check_pixels(column);
+        if (column.ends_with("_direction")) check_directions(column);
+        if (column.ends_with("_origin"))
+            check_rows<Vec3>(column, "finite numbers", [](Vec3 v) { return trace::is_finite(v); });
+        if (column.ends_with("_extent"))
+            check_rows<float>(column, "a length that is not negative", [](float x) { return x >= 0; });
+    }
+
+    void check_walks() {
+        struct Sum {
+            std::uint64_t nodes = 0;
+        };
+        const WalkStore walks(trace_);
+        tbb::enumerable_thread_specific<Sum> parts;
+        run_all_walks(walks, parts, {},
+                      [](Sum& sum, std::span<const std::uint32_t> slots) { sum.nodes += slots.size(); });
+        std::uint64_t nodes = 0;
+        for (const Sum& sum : parts) nodes += sum.nodes;
+        if (nodes != info_.visited_nodes)
+            refuse("visited_nodes", info_.visited_nodes, fmt::format("{}, the nodes of all walks", nodes));
+    }
+
+    void check_searches(const spatial::PhotonKd& tree, const QueriesDone& progress) {
+        const std::uint64_t most = info_.queries * std::min<std::uint64_t>(info_.k, info_.photons);
+        if (info_.found_photons > most)
+            refuse("found_photons", info_.found_photons, fmt::format("at most {}", most));
+        const std::optional<float> radius = search_radius(info_);
+        if (!radius) return;
+        const std::span<const Vec3> positions = trace_.column<Vec3>("query_position");
+        const std::span<const std::uint32_t> lengths = trace_.column<std::uint32_t>("query_walk_bytes");
+        std::span<const std::uint8_t> walks = trace_.column<std::uint8_t>("walk");
+        std::uint64_t found = 0;
+        constexpr std::uint64_t batch = 1 << 20;
+        for (std::uint64_t first = 0; first < positions.size(); first += batch) {
+            const std::span<const Vec3> points =
+                positions.subspan(first, std::min(batch, positions.size() - first));
+            const spatial::Recording again = spatial::record_walks(tree, points, info_.k, *radius);
+            std::size_t at = 0;
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const std::uint32_t length = lengths[first + i];
+                if (again.walk_bytes[i] != length ||
+                    !std::equal(again.walks.begin() + static_cast<std::ptrdiff_t>(at),
+                                again.walks.begin() + static_cast<std::ptrdiff_t>(at + length),
+                                walks.begin()))
+                    refuse("walk", first + i, "another walk",
+                           fmt::format("the one of the search for {} photons within {}", info_.k, *radius));
+                at += length;
+                walks = walks.subspan(length);
+            }
+            found += again.found_photons;
+            if (progress) progress(first + points.size());
+        }
+        if (found != info_.found_photons)
+            refuse("found_photons", info_.found_photons, fmt::format("{}, as the searches find", found));
+        verified_.searched = true;
+    }
+
+    trace::TraceReader& trace_;
+    const trace::TraceInfo& info_;
+    Verified verified_;
+};
+
+}  // namespace
+
+std::optional<float> search_radius(const trace::TraceInfo& info) {
+    const trace::Json* of = &info.parameters;
+    if (info.map == "caustic") of = of->find("caustic");
+    const trace::Json* const radius = of ? of->find("radius") : nullptr;
+    if (!radius) return std::nullopt;
+    if (radius->is_null()) return std::numeric_limits<float>::infinity();
+    if (!radius->is_number() || !(radius->number() > 0)) return std::nullopt;
+    return static_cast<float>(radius->number());
+}
+
+Verified verify(trace::TraceReader& trace, const QueriesDone& progress) {
+    return Verification(trace).run(progress);
+}
+
+}  // namespace regather::replay

@@ -1,0 +1,28 @@
+// replay/verification.h -- a trace held against all that it says of itself.
+#pragma once
+#include <cstdint>
+#include <optional>
+
+#include "replay/replay.h"
+#include "trace/folder.h"
+
+namespace regather::replay {
+
+/// What verify() has seen and does not refuse.
+struct Verified {
+    std::uint64_t queries_nowhere = 0;  ///< At a position that is not finite: they find nothing.
+    bool searched = false;  ///< Whether each query was searched again; trace.json must say the radius.
+};
+
+/// [scene units] How far the trace's queries were searched: infinite when unlimited; none when trace.json
+/// does not say.
+std::optional<float> search_radius(const trace::TraceInfo& info);
+
+/// Reads every column and checks: checksums; the order of the tree, finite photons; pixels inside the image;
+/// finite weights; unit directions; leaf labels below the number of leaves, where trace.json says it; rays;
+/// lengths that add up to the walks, walks that end where their bytes end, and their sum of nodes; then
+/// searches each query again and compares its walk byte by byte, and the sum of photons found. On all cores:
+/// as long as the capture's gathering. Throws trace::DataError that names file, row, found and expected.
+Verified verify(trace::TraceReader& trace, const QueriesDone& progress = {});
+
+}  // namespace regather::replay
