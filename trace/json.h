@@ -20,22 +20,28 @@ public:
     using List = std::vector<Json>;
     using Object = std::vector<Member>;
 
-    Json() = default;  ///< null
-    Json(std::nullptr_t) {}
-    Json(std::same_as<bool> auto truth) : value_(truth) {}
-    Json(std::unsigned_integral auto number) requires(!std::same_as<decltype(number), bool>)
-        : value_(std::uint64_t{number}) {}
-    Json(std::signed_integral auto number) {
+    Json();  ///< null
+    ~Json();
+    Json(const Json&);
+    Json(Json&&) noexcept;
+    Json& operator=(const Json&);
+    Json& operator=(Json&&) noexcept;
+    Json(std::nullptr_t);
+    Json(std::same_as<bool> auto truth) : Json() { set(truth); }
+    Json(std::unsigned_integral auto number) requires(!std::same_as<decltype(number), bool>) : Json() {
+        set(std::uint64_t{number});
+    }
+    Json(std::signed_integral auto number) : Json() {
         if (number < 0) {
-            value_ = std::int64_t{number};
+            set(std::int64_t{number});
         } else {
-            value_ = static_cast<std::uint64_t>(number);
+            set(static_cast<std::uint64_t>(number));
         }
     }
-    Json(std::floating_point auto number) : value_(static_cast<double>(number)) {}
-    Json(std::string text) : value_(std::move(text)) {}
-    Json(std::string_view text) : value_(std::string(text)) {}
-    Json(const char* text) : value_(std::string(text)) {}
+    Json(std::floating_point auto number) : Json() { set(static_cast<double>(number)); }
+    Json(std::string text);
+    Json(std::string_view text);
+    Json(const char* text);
     Json(List list);
     template <std::ranges::input_range Range>
     requires(!std::convertible_to<const Range&, std::string_view> && !std::same_as<Range, Object>)
@@ -77,6 +83,10 @@ public:
 
 private:
     friend class JsonBuilder;
+    void set(bool truth);
+    void set(std::uint64_t number);
+    void set(std::int64_t number);
+    void set(double number);
     void write(std::string& out, int indent, int depth) const;
 
     std::variant<std::monostate, bool, std::uint64_t, std::int64_t, double, std::string, List, Object> value_;
@@ -86,7 +96,32 @@ private:
 struct Json::Member {
     std::string key;
     Json value;
+    friend bool operator==(const Member& a, const Member& b);
 };
+
+// Here the types of the variant are whole.
+inline Json::Json() = default;
+inline Json::~Json() = default;
+inline Json::Json(const Json&) = default;
+inline Json::Json(Json&&) noexcept = default;
+inline Json& Json::operator=(const Json&) = default;
+inline Json& Json::operator=(Json&&) noexcept = default;
+inline Json::Json(std::nullptr_t) : Json() {}
+inline void Json::set(bool truth) {
+    value_ = truth;
+}
+inline void Json::set(std::uint64_t number) {
+    value_ = number;
+}
+inline void Json::set(std::int64_t number) {
+    value_ = number;
+}
+inline void Json::set(double number) {
+    value_ = number;
+}
+inline Json::Json(std::string text) : value_(std::move(text)) {}
+inline Json::Json(std::string_view text) : Json(std::string(text)) {}
+inline Json::Json(const char* text) : Json(std::string(text)) {}
 
 inline constexpr std::size_t most_json_depth = 64;
 inline constexpr std::size_t most_json_values = 1u << 24;
