@@ -141,7 +141,7 @@ TEST(TraceFolder, InconsistentJsonIsRefusedByField) {
     refused("\"photons\": 3", "\"photons\": \"x\"", "photons: found \"x\"");
     refused("\"seed\"", "\"sed\"", "sed: found unknown key \"sed\", expected \"seed\"");
     refused("\"walk\"", "\"wlak\"", "columns.wlak: found unknown column \"wlak\", expected \"walk\"");
-    refused("{", "", "column 14: found ':', expected the end of the file");
+    refused("{", "", "column 19: found ':', expected the end of the file");
     refused("\"image_width\": 2", "\"image_width\": 0",
             "image_width: found 0, expected a whole number of pixels from 1");
     refused("\"image_height\": 1", "\"image_height\": 4294967296",
