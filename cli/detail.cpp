@@ -16,6 +16,7 @@
 #include "results/geometry.h"
 #include "results/provenance.h"
 #include "trace/error.h"
+#include "trace/file.h"
 #include "trace/size.h"
 
 namespace regather::cli {
@@ -47,10 +48,7 @@ void check_outputs(const Options& options) {
             fmt::format("--timeline: found {}, expected another name than that of --csv, for the "
                         "provenance beside it",
                         options.timeline.string()));
-    if (options.force) return;
-    for (const std::filesystem::path& file : files)
-        if (std::filesystem::exists(file))
-            throw trace::UsageError(fmt::format("{}: exists; --force overwrites it", file.string()));
+    trace::refuse_to_overwrite(files, options.force);
 }
 
 template <class R>

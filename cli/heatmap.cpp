@@ -1,6 +1,7 @@
 // regather heatmap -- which pixels move how many bytes, by ordering, as channels of an EXR and as a picture.
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
 #include <memory>
 
@@ -13,6 +14,7 @@
 #include "experiment/traffic_map.h"
 #include "results/geometry.h"
 #include "trace/error.h"
+#include "trace/file.h"
 
 namespace regather::cli {
 namespace {
@@ -26,9 +28,7 @@ struct Options {
 
 void run(const Options& options, const Console& console) {
     const std::filesystem::path exr = options.folder / "traffic.exr", png = options.folder / "traffic.png";
-    for (const std::filesystem::path& file : {exr, png})
-        if (!options.force && std::filesystem::exists(file))
-            throw trace::UsageError(fmt::format("{}: exists; --force overwrites it", file.string()));
+    trace::refuse_to_overwrite(std::array{exr, png}, options.force);
     const auto caches = cachesim::parse_caches(options.cache);
     if (caches.size() != 1)
         throw trace::UsageError(fmt::format("--cache: found {}, expected one cache", options.cache));

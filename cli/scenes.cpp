@@ -19,6 +19,7 @@
 #include "scenes/loader.h"
 #include "scenes/needs.h"
 #include "trace/error.h"
+#include "trace/file.h"
 
 namespace regather::cli {
 
@@ -108,9 +109,7 @@ void write_thumbnails(const std::filesystem::path& file, std::vector<std::string
                       const Console& console) {
     if (file.extension() != ".png")
         throw trace::UsageError(fmt::format("--thumbnails: found {}, expected a .png file", file.string()));
-    if (std::filesystem::exists(file) && !force)
-        throw trace::UsageError(
-            fmt::format("{}: found a file that is there, expected --force to overwrite it", file.string()));
+    trace::refuse_to_overwrite(std::array{file}, force);
     if (names.empty())
         for (const scenes::EmbeddedScene& entry : scenes::catalogue()) names.emplace_back(entry.name);
     std::vector<Scene> all;

@@ -81,7 +81,8 @@ capture::Tone CaptureOptions::tone_curve() const {
 CaptureOptions capture_options(const trace::Field& in) {
     static constexpr bool optional = false;
     static constexpr std::string_view count = "a whole number", text = "a text",
-                                      length = "a number that is not negative";
+                                      length = "a number that is not negative",
+                                      radius = "a number that is not negative, or \"inf\"";
     static const trace::Kind kind{"capture",
                                   {{"width", optional, count},
                                    {"height", optional, count},
@@ -91,12 +92,12 @@ CaptureOptions capture_options(const trace::Field& in) {
                                    {"shadow_rays", optional, count},
                                    {"photons", optional, count},
                                    {"k", optional, count},
-                                   {"radius", optional, length},
+                                   {"radius", optional, radius},
                                    {"filter", optional, text},
                                    {"surface_check", optional, "true or false"},
                                    {"caustic_photons", optional, count},
                                    {"caustic_k", optional, count},
-                                   {"caustic_radius", optional, length},
+                                   {"caustic_radius", optional, radius},
                                    {"caustic_filter", optional, text},
                                    {"keep", optional, "a part or a list of parts"},
                                    {"frames", optional, text},
@@ -121,9 +122,13 @@ CaptureOptions capture_options(const trace::Field& in) {
     whole("caustic_k", options.caustic_k, 1, most_photons);
     for (auto [key, value] : {std::pair<const char*, double*>{"radius", &options.radius},
                               {"caustic_radius", &options.caustic_radius},
-                              {"exposure", &options.exposure}})
-        if (in.has(key))
-            *value = in[key].number(0, std::numeric_limits<double>::max(), kind.key(key).expected);
+                              {"exposure", &options.exposure}}) {
+        if (!in.has(key)) continue;
+        const bool unlimited =
+            value != &options.exposure && in[key].value().text() && in[key].text() == "inf";
+        *value = unlimited ? std::numeric_limits<double>::infinity()
+                           : in[key].number(0, std::numeric_limits<double>::max(), kind.key(key).expected);
+    }
     for (auto [key, value] : {std::pair<const char*, std::string*>{"mode", &options.mode},
                               {"filter", &options.filter},
                               {"caustic_filter", &options.caustic_filter},
@@ -134,6 +139,16 @@ CaptureOptions capture_options(const trace::Field& in) {
     for (auto [key, value] :
          {std::pair<const char*, bool*>{"surface_check", &options.surface_check}, {"rays", &options.rays}})
         if (in.has(key)) *value = in[key].truth();
+    if (options.mode == "direct")
+        for (const char* const key : {"gather_rays", "shadow_rays"})
+            if (in.has(key))
+                in[key].refuse(
+                    "found beside \"mode\": \"direct\", which casts no such rays, expected one of them");
+    if (options.caustic_photons == 0)
+        for (const char* const key : {"caustic_k", "caustic_radius", "caustic_filter"})
+            if (in.has(key))
+                in[key].refuse(
+                    "found beside \"caustic_photons\": 0, which makes no such map, expected one of them");
     if (in.has("keep")) options.keep = in["keep"].texts();
     if (in.has("seed"))
         options.seed = in["seed"].whole<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max());

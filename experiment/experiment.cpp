@@ -139,6 +139,8 @@ Experiment load_experiment(const std::filesystem::path& path) {
     const std::uint32_t one_of = in.has("sample") ? in["sample"].whole(1, 1024) : 1;
     const std::uint64_t sample_seed =
         in.has("sample_seed") ? in["sample_seed"].whole<std::uint64_t>(0, ~std::uint64_t{0}) : 1;
+    if (in.has("sample_seed") && !in.has("sample"))
+        in["sample_seed"].refuse("found without \"sample\", expected both or none");
     if (one_of != 1) {
         for (const char* const key : {"classes", "buffers"})
             if (flag(key)) in[key].fail("true beside \"sample\"", "one of them");

@@ -3,6 +3,8 @@
 
 #include <signal.h>
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "cli/version.h"
@@ -353,6 +355,20 @@ TEST_F(Run, FramesAndPartsToKeepAreBadDataOfTheFile) {
     write(file_, text.replace(text.find("\"box\""), 5, "\"cornell\""));
     expect_refused(bad_data, words(), {"experiment.json", "frames", "0:999"});
     EXPECT_FALSE(fs::exists(folder_));
+}
+
+TEST_F(Run, KeysThatLeaveEachOtherWithoutEffectAreRefused) {
+    refused(with("\"caches\"", "\"sample_seed\": 3, \"caches\""), {"sample_seed", "without \"sample\""});
+    refused(with("\"k\": 20", "\"k\": 20, \"mode\": \"direct\""), {"gather_rays", "\"direct\""});
+    refused(with("\"k\": 20", "\"k\": 20, \"caustic_photons\": 0, \"caustic_k\": 5"),
+            {"caustic_k", "\"caustic_photons\": 0"});
+}
+
+TEST_F(Run, AnUnlimitedRadiusMayBeWrittenInf) {
+    write(file_, with("\"k\": 20", "\"k\": 20, \"radius\": \"inf\", \"caustic_radius\": \"inf\""));
+    EXPECT_TRUE(std::isinf(experiment::load_experiment(file_).capture.radius));
+    refused(with("\"k\": 20", "\"k\": 20, \"exposure\": \"inf\""), {"exposure", "not negative"});
+    refused(with("\"k\": 20", "\"k\": 20, \"radius\": \"far\""), {"radius", "\"inf\""});
 }
 
 TEST_F(Run, AFolderOrAVeryLongNameIsNoExperiment) {
