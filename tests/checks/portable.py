@@ -16,14 +16,14 @@ import sys
 
 here = pathlib.Path(__file__).parent
 # Glossy, mirror and glass, smooth normals, caustic maps, frames of a camera path; thousands of triangles in cornell.
-small = ["--width", "10", "--height", "10", "--gather-rays", "10", "--shadow-rays", "4", "--photons", "3000", "--caustic-photons",
-         "500", "--k", "20"]
+small = ["--width", "10", "--height", "10", "--photons", "3000", "--caustic-photons", "500", "--k", "20"]
+gather = ["--gather-rays", "10", "--shadow-rays", "4"]
 own = here.parent / "golden/portable_scene.json"
 captures = {
-    "portable": [own],
-    "frames": [own, "--frames", "2,4", "--samples", "2"],
+    "portable": [own, *gather],
+    "frames": [own, *gather, "--frames", "2,4", "--samples", "2"],
     "direct": [own, "--mode", "direct", "--filter", "gaussian"],
-    "cornell": ["cornell"],
+    "cornell": ["cornell", *gather],
 }
 orders = ["naive", "random", "tiled:tile=4", "direction-binned", "hilbert", "morton", "swizzle", "hashed", "direction-binned+hashed",
           "kd-leaf", "bvh-leaf"]
