@@ -43,7 +43,10 @@ protected:
     static std::string run(const std::vector<std::string>& arguments) {
         const Outcome made = outcome(arguments);
         EXPECT_EQ(made.exit_code, 0);
-        EXPECT_EQ(made.err, "");
+        // What stands behind the addresses of the din files is for people, and said to be passed over.
+        const bool din = std::any_of(arguments.begin(), arguments.end(),
+                                     [](const std::string& word) { return word.ends_with(".din"); });
+        EXPECT_EQ(made.err.substr(0, 6), din ? "note: " : "");
         return made.out;
     }
     static std::string usage_error(const std::vector<std::string>& arguments) {
