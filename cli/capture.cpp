@@ -17,10 +17,12 @@ struct Options {
 
 void run(const Options& options, const Console& console) {
     experiment::CaptureResult result;
+    experiment::CaptureJob job = options.job;
     const Interruption interruption;
     try {
         Progress progress(console);
-        result = experiment::run(options.job, interruption.ending(progress.listener()));
+        job.note = progress.note_listener();
+        result = experiment::run(job, interruption.ending(progress.listener()));
     } catch (const Interrupted& interrupted) {
         throw Interrupted(
             interrupted.signal,

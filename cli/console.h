@@ -18,6 +18,11 @@ struct Console {
     void print(fmt::format_string<Words...> format, Words&&... words) const {
         fmt::print(out, format, std::forward<Words>(words)...);
     }
+
+    /// What is not taken over, or was guessed: a line "note: LINE" each, on err.
+    void note(const std::vector<std::string>& lines) const {
+        for (const std::string& line : lines) fmt::print(err, "note: {}\n", line);
+    }
 };
 
 }  // namespace regather::cli

@@ -22,14 +22,17 @@ study::Converged measure(const study::ConvergenceJob& job, const Console& consol
     std::size_t finished = 0;
     try {
         Progress progress(console);
-        return study::run(job, interruption.ending(progress.listener()), [&](const study::Converged& so_far) {
-            finished = so_far.rows.size();
-            results::write_provenance(
-                so_far.csv, provenance(console, ""),
-                trace::Json::object({{"reference_samples", so_far.reference.samples},
-                                     {"reference_rmse", so_far.reference_rmse},
-                                     {"scene_checksum", so_far.reference.key.scene_checksum}}));
-        });
+        study::ConvergenceJob noted = job;
+        noted.note = progress.note_listener();
+        return study::run(
+            noted, interruption.ending(progress.listener()), [&](const study::Converged& so_far) {
+                finished = so_far.rows.size();
+                results::write_provenance(
+                    so_far.csv, provenance(console, ""),
+                    trace::Json::object({{"reference_samples", so_far.reference.samples},
+                                         {"reference_rmse", so_far.reference_rmse},
+                                         {"scene_checksum", so_far.reference.key.scene_checksum}}));
+            });
     } catch (const Interrupted& interrupted) {
         throw Interrupted(
             interrupted.signal,

@@ -177,7 +177,7 @@ void add_import(Command& command) {
         if (kind.name == "mesh")
             console.print("up       {} of the file{}\n", asked.request.up,
                           command.given("--up") ? "" : ", by default: see --up");
-        for (const std::string& note : scene.notes) fmt::print(console.err, "note: {}\n", note);
+        console.note(scene.notes);
         console.print("written  {}\n", (asked.folder / "scene.json").string());
     });
 }

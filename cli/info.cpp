@@ -75,6 +75,7 @@ void add_info(Command& command) {
         if (std::filesystem::is_directory(asked.what, error))
             return print_trace(asked.what, asked.verify, console);
         const scenes::Scene scene = scenes::load_scene(asked.what);
+        console.note(scene.notes);
         if (asked.verify)
             throw trace::UsageError(
                 fmt::format("--verify: found with the scene {}, expected a trace's folder: a scene is "

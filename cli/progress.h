@@ -24,6 +24,10 @@ public:
     void update(std::string_view stage, std::string_view unit, std::uint64_t done, std::uint64_t total);
     /// A line that stays, on stderr, whatever stderr is: "note: TEXT".
     void note(std::string_view text);
+    /// note(), for as long as this lives.
+    experiment::NoteListener note_listener() {
+        return [this](std::string_view line) { note(line); };
+    }
     /// update(), for as long as this lives.
     experiment::ProgressListener listener() {
         return [this](std::string_view stage, std::string_view unit, std::uint64_t done,

@@ -31,6 +31,7 @@ void run(const Options& options, const Console& console) {
     try {
         const capture::Reference reference = [&] {
             Progress progress(console);
+            job.note = progress.note_listener();
             return experiment::run(job, interruption.ending(progress.listener()));
         }();
         console.print("{}", experiment::report(reference, job.folder));

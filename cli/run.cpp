@@ -47,7 +47,7 @@ Made make(const experiment::Experiment& experiment, const Options& options, cons
         const experiment::ProgressListener listener = interruption.ending(progress.listener());
         const experiment::CaptureResult captured =
             experiment::run({experiment.scene, experiment.capture, experiment::reads(experiment),
-                             options.folder, options.force},
+                             options.folder, options.force, progress.note_listener()},
                             listener);
         progress.clear();
         console.print("{}", captured.report);

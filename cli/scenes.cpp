@@ -113,7 +113,10 @@ void write_thumbnails(const std::filesystem::path& file, std::vector<std::string
     if (names.empty())
         for (const scenes::EmbeddedScene& entry : scenes::catalogue()) names.emplace_back(entry.name);
     std::vector<Scene> all;
-    for (const std::string& name : names) all.push_back(scenes::load_scene(name));
+    for (const std::string& name : names) {
+        all.push_back(scenes::load_scene(name));
+        console.note(all.back().notes);
+    }
     Progress progress(console);
     const capture::Image sheet = capture::contact_sheet(all, {}, [&](std::string_view, std::size_t done) {
         progress.update("thumbnails", "scenes", done, all.size());
@@ -123,6 +126,7 @@ void write_thumbnails(const std::filesystem::path& file, std::vector<std::string
 
 void print_details(const std::string& name_or_path, const Console& console) {
     const Scene scene = scenes::load_scene(name_or_path);
+    console.note(scene.notes);
     const auto line = [&](std::string_view label, const std::string& text) {
         console.print("{:<22}{}\n", label, text);
     };

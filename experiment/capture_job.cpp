@@ -117,6 +117,7 @@ std::uint32_t frames_of(const scenes::Scene& scene) {
 
 CaptureResult run(const CaptureJob& job, const ProgressListener& progress) {
     scenes::Scene scene = scenes::load_scene(job.scene);
+    tell(job.note, scene.notes);
     capture::CaptureConfig config = job.options.config();
     if (job.reads) {
         config.columns.direction = job.reads->direction || job.reads->captured;

@@ -19,6 +19,7 @@ struct CaptureJob {
     std::optional<reorder::Reads> reads;  ///< Columns that will be looked at; nothing: store them all.
     std::filesystem::path folder;
     bool force = false;
+    NoteListener note = {};
 };
 
 struct CaptureResult {

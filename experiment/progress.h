@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace regather::experiment {
 
@@ -12,6 +13,15 @@ namespace regather::experiment {
 /// that exception.
 using ProgressListener = std::function<void(std::string_view stage, std::string_view unit, std::uint64_t done,
                                             std::uint64_t total)>;
+
+/// Told what a scene's mesh files hold that is not taken over (scenes/scene.h), a line at a time, before the
+/// work begins. Empty: nobody listens.
+using NoteListener = std::function<void(std::string_view line)>;
+
+inline void tell(const NoteListener& listener, const std::vector<std::string>& lines) {
+    if (listener)
+        for (const std::string& line : lines) listener(line);
+}
 
 /// The listener to one stage, told only how much is done. `listener` outlives it.
 inline std::function<void(std::uint64_t)> listening(const ProgressListener& listener, std::string stage,

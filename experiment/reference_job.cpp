@@ -75,6 +75,7 @@ void render(capture::Reference& reference, const scenes::Scene& scene, const Ref
 
 capture::Reference run(const ReferenceJob& job, const ProgressListener& progress) {
     scenes::Scene scene = scenes::load_scene(job.scene);
+    tell(job.note, scene.notes);
     if (job.frame) scene.camera = scenes::camera_at(scene, *job.frame);
     const trace::FolderLock lock(job.folder);
     capture::Reference reference = capture::resume_reference(

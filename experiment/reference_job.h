@@ -30,6 +30,7 @@ struct ReferenceJob {
     std::uint64_t seed = 1;
     std::optional<std::uint32_t> frame;  ///< Of the camera path; none: the standing camera.
     ReferenceGoal goal;
+    NoteListener note = {};
 };
 
 /// Renders until the goal is reached, in runs of about a second; saves the first samples, then every 30

@@ -254,8 +254,11 @@ private:
     void make_materials() {
         std::vector<Material> described;
         for (const std::string& name : libraries_) {
-            std::string there = name;
-            if (!source_.has_beside(name) && !source_.stem.empty()) there = source_.stem + ".mtl";
+            // A library that the file names itself does not stand in for another one.
+            const std::string own = source_.stem + ".mtl";
+            const bool is_named = std::find(libraries_.begin(), libraries_.end(), own) != libraries_.end();
+            const bool takes_own = !source_.has_beside(name) && !source_.stem.empty() && !is_named;
+            const std::string& there = takes_own ? own : name;
             if (!source_.has_beside(there)) {
                 notes_.add(fmt::format("the material library {} is not there", in_quotes(name)));
                 mesh_.missing_libraries.push_back(name);

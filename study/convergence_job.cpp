@@ -110,6 +110,7 @@ std::vector<results::ConvergenceRow> known_rows(const fs::path& csv, const Conve
 Converged run(const ConvergenceJob& job, const experiment::ProgressListener& progress,
               const RowsWritten& written) {
     scenes::Scene scene = scenes::load_scene(job.scene);
+    experiment::tell(job.note, scene.notes);
     if (job.frame) scene.camera = scenes::camera_at(scene, *job.frame);
     const std::vector<Setting> ladder = ladder_of(scene, job.ladder);
     const fs::path csv = job.folder / "converge.csv", strips = job.folder / "strips";

@@ -24,6 +24,7 @@ struct ConvergenceJob {
     std::optional<std::uint32_t> width, height, frame;  ///< [pixels]; none: the reference's, or 64.
     std::uint32_t seeds = 4, shadow_rays = 16;
     bool force = false;  ///< Measure again what the folder holds.
+    experiment::NoteListener note = {};
 };
 
 struct Converged {
