@@ -1,185 +1,36 @@
-// regather walk -- makes a trace of somebody else's photons and queries: builds the tree, records every walk.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <filesystem>
-#include <limits>
+// regather walk -- makes a trace of somebody else's photons and queries.
 #include <memory>
 
 #include "cli/command.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
-#include "spatial/photon_kd.h"
-#include "spatial/recording.h"
-#include "trace/error.h"
-#include "trace/folder.h"
-#include "trace/text.h"
-#include "trace/word.h"
+#include "experiment/trace_job.h"
 
 namespace regather::cli {
-namespace {
-
-namespace fs = std::filesystem;
-using trace::Vec3;
-
-struct Options {
-    fs::path columns, folder;
-    std::uint32_t k = 100, width = 0;
-    double radius = 0;
-    bool force = false;
-};
-
-/// A column of the folder that may be missing.
-template <class T>
-struct OptionalColumn {
-    OptionalColumn(const fs::path& folder, const char* name, std::uint64_t rows) {
-        const fs::path path = folder / fmt::format("{}.npy", name);
-        if (!fs::exists(path)) return;
-        file.push_back(trace::MappedColumn(path, trace::column_type<T>()));
-        if (file.front().size() != rows)
-            throw trace::DataError(fmt::format("{}: found {} rows, expected {} as in query_position.npy",
-                                               path.string(), file.front().size(), rows));
-    }
-    bool exists() const { return !file.empty(); }
-    std::span<const T> rows() const { return file.front().template rows<T>(); }
-    std::vector<trace::MappedColumn> file;
-};
-
-template <class T>
-void copy(trace::TraceWriter& writer, const char* name, const OptionalColumn<T>& column) {
-    if (column.exists()) writer.column(name).append(column.rows());
-}
-
-/// A column that nobody reads is one whose name is misspelt.
-void refuse_unknown_columns(const fs::path& folder) {
-    static constexpr std::array<std::string_view, 7> known{
-        "photon_position", "query_position", "query_pixel",   "query_weight",
-        "query_direction", "query_leaf_kd",  "query_leaf_bvh"};
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error)) {
-        const std::string name = entry.path().stem().string();
-        if (entry.path().extension() == ".npy" && std::find(known.begin(), known.end(), name) == known.end())
-            throw trace::DataError(fmt::format("{}: found an unknown column {}, expected {} (known: {})",
-                                               folder.string(), trace::in_quotes(name),
-                                               trace::alternatives(trace::nearest_words(name, known)),
-                                               trace::listed(known)));
-    }
-}
-
-/// Without a column each query is a pixel of its own.
-std::uint32_t greatest_pixel(const fs::path& columns, const OptionalColumn<std::uint32_t>& pixel,
-                             std::uint64_t queries) {
-    constexpr std::uint32_t most =
-        std::numeric_limits<std::uint32_t>::max() - 1;  // so that an image width is one more
-    if (!pixel.exists()) return queries == 0 ? 0 : static_cast<std::uint32_t>(queries - 1);
-    std::uint32_t last = 0;
-    for (std::size_t i = 0; i < pixel.rows().size(); ++i) {
-        last = std::max(last, pixel.rows()[i]);
-        if (last > most)
-            throw trace::DataError(fmt::format("{}: row {}: found {}, expected at most {}",
-                                               (columns / "query_pixel.npy").string(), i, last, most));
-    }
-    return last;
-}
-
-void make_trace(const Options& options, const Console& console) {
-    refuse_unknown_columns(options.columns);
-    const trace::MappedColumn photon_positions(options.columns / "photon_position.npy",
-                                               trace::column_type<Vec3>());
-    const trace::MappedColumn positions(options.columns / "query_position.npy", trace::column_type<Vec3>());
-    const std::uint64_t queries = positions.size();
-    const OptionalColumn<std::uint32_t> pixel(options.columns, "query_pixel", queries);
-    const OptionalColumn<Vec3> weight(options.columns, "query_weight", queries);
-    const OptionalColumn<Vec3> direction(options.columns, "query_direction", queries);
-    const OptionalColumn<std::uint32_t> leaf_kd(options.columns, "query_leaf_kd", queries);
-    const OptionalColumn<std::uint32_t> leaf_bvh(options.columns, "query_leaf_bvh", queries);
-    if (queries >= std::numeric_limits<std::uint32_t>::max())
-        throw trace::DataError(fmt::format("{}: found {} rows, expected fewer than 2^32 - 1",
-                                           (options.columns / "query_position.npy").string(), queries));
-
-    std::vector<trace::Photon> photons(photon_positions.size());
-    for (std::size_t i = 0; i < photons.size(); ++i) {
-        photons[i].position = photon_positions.rows<Vec3>()[i];
-        if (!trace::is_finite(photons[i].position))
-            throw trace::DataError(fmt::format("{}: row {}: found {} {} {}, expected finite numbers",
-                                               (options.columns / "photon_position.npy").string(), i,
-                                               photons[i].position.x, photons[i].position.y,
-                                               photons[i].position.z));
-    }
-    const std::uint32_t last_pixel = greatest_pixel(options.columns, pixel, queries);
-    const std::vector<trace::Photon> heap = spatial::left_balanced(photons);
-
-    trace::TraceWriter writer(options.folder, options.force);  // from here on an earlier trace is gone
-    writer.column("photon").append(std::span<const trace::Photon>(heap));
-    writer.column("query_position").append(positions.rows<Vec3>());
-    copy(writer, "query_weight", weight);
-    copy(writer, "query_direction", direction);
-    copy(writer, "query_leaf_kd", leaf_kd);
-    copy(writer, "query_leaf_bvh", leaf_bvh);
-
-    trace::TraceInfo info;
-    if (pixel.exists()) {
-        copy(writer, "query_pixel", pixel);
-    } else {
-        std::vector<std::uint32_t> own(queries);
-        for (std::size_t i = 0; i < own.size(); ++i) own[i] = static_cast<std::uint32_t>(i);
-        writer.column("query_pixel").append(std::span<const std::uint32_t>(own));
-    }
-    info.image_width = options.width > 0 ? options.width : last_pixel + 1;
-    info.image_height = last_pixel / info.image_width + 1;
-
-    const float radius =
-        options.radius > 0 ? static_cast<float>(options.radius) : std::numeric_limits<float>::infinity();
-    const spatial::PhotonKd tree(heap);
-    constexpr std::uint64_t batch = 1 << 20;
-    Progress progress(console);
-    for (std::uint64_t first = 0; first < queries || first == 0; first += batch) {
-        const auto points = positions.rows<Vec3>().subspan(first, std::min(batch, queries - first));
-        const spatial::Recording walks = spatial::record_walks(tree, points, options.k, radius);
-        writer.column("query_walk_bytes").append(std::span<const std::uint32_t>(walks.walk_bytes));
-        writer.column("walk").append(std::span<const std::uint8_t>(walks.walks));
-        info.found_photons += walks.found_photons;
-        info.visited_nodes += walks.visited_nodes;
-        progress.update("recording walks", "queries", first + points.size(), queries);
-    }
-    info.scene = fs::weakly_canonical(options.columns).filename().string();
-    info.k = options.k;
-    info.queries = queries;
-    info.photons = heap.size();
-    info.parameters["radius"] = std::isfinite(radius) ? trace::Json(options.radius) : trace::Json();
-    info.parameters["k"] = options.k;
-    const auto note = [&](const char* name, bool exists) {
-        if (!exists) info.left_out.push_back({name, "it was not among the columns given"});
-    };
-    note("query_weight", weight.exists());
-    note("query_direction", direction.exists());
-    note("query_leaf_kd", leaf_kd.exists());
-    note("query_leaf_bvh", leaf_bvh.exists());
-    writer.finish(info);
-    console.print("{} photons, {} queries, {} nodes visited\ntrace: {}\n", info.photons, info.queries,
-                  info.visited_nodes, options.folder.string());
-}
-
-}  // namespace
 
 void add_walk(Command& command) {
-    auto options = std::make_shared<Options>();
+    auto job = std::make_shared<experiment::TraceJob>();
     command
         .argument(
-            "columns", options->columns,
+            "columns", job->columns,
             "folder with photon_position.npy and query_position.npy (float32, n x 3) and, if you have them, "
             "query_pixel.npy (uint32), query_direction.npy, query_weight.npy (float32, n x 3)")
         .required();
-    command.option("-o,--output", options->folder, "the trace's folder").required();
-    command.option("--k", options->k, {1, (1u << 31) - 1}, "photons of a search");
-    command.option("--radius", options->radius, {.least = 0, .infinite = true},
+    command.option("-o,--output", job->folder, "the trace's folder").required();
+    command.option("--k", job->k, {1, (1u << 31) - 1}, "photons of a search");
+    command.option("--radius", job->radius, {.least = 0, .infinite = true},
                    "maximum radius [units of the positions]; 0 or inf: unlimited");
-    command.option("--width", options->width, {1}, "image width that query_pixel counts with [pixels]");
-    command.flag("--force", options->force, "overwrite a finished trace");
+    command.option("--width", job->width, {1}, "image width that query_pixel counts with [pixels]");
+    command.flag("--force", job->force, "overwrite a finished trace");
     command.footer("Example:\n  regather walk my_columns -o out/mine --k 50 --width 640");
-    command.action(options, make_trace);
+    command.action(job, [](const experiment::TraceJob& asked, const Console& console) {
+        std::string report;
+        {
+            Progress progress(console);
+            report = experiment::run(asked, progress.listener());
+        }
+        console.print("{}", report);
+    });
 }
 
 }  // namespace regather::cli
