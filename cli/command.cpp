@@ -24,9 +24,11 @@ std::string in_quotes(std::string_view word) {
     return fmt::format("'{}'", trace::shown(word));
 }
 
-/// "--output" of "-o,--output".
+/// "--output" of "-o,--output", "--order" of "--order,--reorderer", "scene" of "scene".
 std::string long_name(std::string_view names) {
-    return std::string(names.substr(names.rfind(',') + 1));
+    const std::size_t start = names.find("--");
+    if (start != names.npos) names.remove_prefix(start);
+    return std::string(names.substr(0, names.find(',')));
 }
 
 template <class Number>

@@ -107,7 +107,9 @@ protected:
     }
     std::string rows(const std::string& name, std::vector<std::string> arguments) const {
         arguments.insert(arguments.begin(), std::string(source_) + "/tests/cachesim/din/" + name);
-        const std::string table = run(arguments);
+        const Outcome made = outcome(arguments);  // with a note of the comments behind the addresses
+        EXPECT_EQ(made.exit_code, 0) << made.err;
+        const std::string& table = made.out;
         EXPECT_EQ(table.substr(0, header.size()), header);
         return table.substr(header.size());
     }

@@ -142,7 +142,7 @@ TEST(Words, NoLibrarysWordsAndNoLongNumbersReachAUser) {
 TEST(Words, TheSameTwiceInAListIsRefused) {
     for (const auto& [words, parts] : std::vector<std::pair<Words, Words>>{
              {{"replay", "none", "--order", "naive", "naive"}, {"--order", "'naive' twice"}},
-             {{"replay", "none", "--order", "hilbert", "hilbert:bits=16"}, {"hilbert", "twice"}},
+             {{"replay", "none", "--order", "hilbert", "hilbert:bits=21"}, {"hilbert", "twice"}},
              {{"replay", "none", "--order", "naive", "--cache", "1K:64:1", "1024:64:1"}, {"1024:64:1 twice"}},
              {{"replay", "none", "--order", "naive", "--machine", "paper-128k,paper-128k"},
               {"paper-128k twice"}},

@@ -52,7 +52,7 @@ TEST(Fault, AFileThatReachesTheLimitOfSizeIsAFailedRun) {
     Outcome outcome;
     {
         const FileSizeLimit limit(20'000);
-        outcome = regather(small_capture(scratch / "box"));
+        outcome = Process(small_capture(scratch / "box")).outcome();
     }
     EXPECT_EQ(outcome.exit_code, run_failed) << outcome.err;
     EXPECT_THAT(outcome.err,

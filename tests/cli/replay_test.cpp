@@ -202,7 +202,7 @@ TEST(Replay, WhatCannotBeSampledIsAUsageError) {
     refused({"1K,2K:64", "--sample", "4"}, {"SIZE:LINE:WAYS"});
     refused({"2K:64:1,"}, {"2K:64:1,", "ways", "''"});
     refused({"2K:64:1", "1K,2K:64:1"}, {"2048:64:1 twice"});
-    expect_refused(bad_usage, {"replay", "x", "--order", "naive", "hilbert", "hilbert:bits=16"},
+    expect_refused(bad_usage, {"replay", "x", "--order", "naive", "hilbert", "hilbert:bits=21"},
                    {"hilbert", "twice"});
 }
 
