@@ -112,8 +112,8 @@ TEST(SlowCapture, KilledAfterAnyFileItLeavesNothingThatReplayAccepts) {
     for (const std::size_t files : {1, 4, 12, 18}) {
         const Scratch scratch;
         const std::string folder = (scratch / "room").string();
-        Process capture({"capture", "room", "-o", folder, "--width", "64", "--height", "64", "--photons",
-                         "50000", "--gather-rays", "40"});
+        Process capture({"capture", "room", "-o", folder, "--width", "32", "--height", "32", "--photons",
+                         "20000", "--gather-rays", "40"});
         ASSERT_TRUE(capture.wait_until([&] { return has_files(folder, files); })) << capture.outcome().err;
         capture.send(SIGKILL);
         const int code = capture.outcome().exit_code;

@@ -310,7 +310,7 @@ TEST_F(SlowRun, KilledAfterAnyFileItIsTakenUpAgain) {
         run.send(SIGKILL);
         run.outcome();
     }
-    expect_done(words());
+    EXPECT_EQ(Process(words()).outcome().exit_code, 0);
     EXPECT_EQ(results::read_csv(folder_ / "rows.csv").size(), rows);
     EXPECT_EQ(parts().size(), trials);
     EXPECT_NO_THROW(trace::TraceReader(folder_ / "trace").verify_all());
