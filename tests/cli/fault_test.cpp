@@ -33,7 +33,7 @@ TEST(Fault, AColumnThatIsCutShortWhileItIsReadIsNamed) {
             ": found a file that was cut short while it was read, expected the file as it was opened\n");
 }
 
-/// Restores the limit that a child inherits.
+/// Of this process, whose children inherit it: larger than anything that the test itself prints to a file.
 class FileSizeLimit {
 public:
     explicit FileSizeLimit(rlim_t bytes) {
@@ -51,8 +51,10 @@ TEST(Fault, AFileThatReachesTheLimitOfSizeIsAFailedRun) {
     const Scratch scratch;
     Outcome outcome;
     {
-        const FileSizeLimit limit(20'000);
-        outcome = Process(small_capture(scratch / "box")).outcome();
+        const FileSizeLimit limit(2'000'000);
+        outcome = Process({"capture", "box", "-o", (scratch / "box").string(), "--width", "4", "--height",
+                           "4", "--gather-rays", "1", "--photons", "200000"})  // of 20 bytes
+                      .outcome();
     }
     EXPECT_EQ(outcome.exit_code, run_failed) << outcome.err;
     EXPECT_THAT(outcome.err,
