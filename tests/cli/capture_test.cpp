@@ -59,10 +59,8 @@ TEST(Capture, TwoAtOnceLeaveOneWholeTrace) {
     const auto words = [&](const char* seed) {
         return small_capture(scratch / "box") + std::vector<std::string>{"--seed", seed};
     };
-    Outcome first, second;
-    std::thread other([&] { first = regather(words("1")); });
-    second = regather(words("2"));
-    other.join();
+    Process one(words("1")), other(words("2"));
+    const Outcome first = one.outcome(), second = other.outcome();
     EXPECT_TRUE(first.exit_code == 0 || second.exit_code == 0) << first.err << second.err;
     for (const Outcome* outcome : {&first, &second})
         if (outcome->exit_code != 0) {
