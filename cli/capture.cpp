@@ -24,11 +24,11 @@ void run(const Options& options, const Console& console) {
         job.note = progress.note_listener();
         result = experiment::run(job, interruption.ending(progress.listener()));
     } catch (const Interrupted& interrupted) {
-        throw Interrupted(
-            interrupted.signal,
-            fmt::format("{}: interrupted: {}; the same command goes on", options.job.folder.string(),
-                        options.job.options.frames.empty() ? "nothing is finished yet"
-                                                           : "finished frames are there"));
+        throw Interrupted(interrupted.signal,
+                          fmt::format("{}: interrupted: {}", options.job.folder.string(),
+                                      options.job.options.frames.empty()
+                                          ? "nothing is finished; the same command begins again"
+                                          : "finished frames are there; the same command goes on"));
     }
     console.print("{}", result.report);
 }
