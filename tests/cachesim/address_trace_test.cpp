@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string>
 
+#include "tests/scratch.h"
 #include "trace/error.h"
 #include "trace/npy.h"
 
@@ -19,13 +20,7 @@ using testing::HasSubstr;
 
 class AddressTraceTest : public testing::Test {
 protected:
-    void SetUp() override {
-        folder_ = path(testing::TempDir()) / (std::string("address trace ") +
-                                              testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
+    void SetUp() override { std::filesystem::create_directories(folder_); }
 
     path text(const std::string& content) const {
         std::ofstream(folder_ / "trace.din", std::ios::binary) << content;
@@ -65,7 +60,8 @@ protected:
         return "accepted";
     }
 
-    path folder_;
+    const Scratch scratch_;
+    const path folder_ = scratch_ / "address trace";
 };
 
 constexpr std::uint64_t top = ~std::uint64_t{0};
