@@ -149,7 +149,8 @@ TEST_F(AddressTraceTest, ACommentMayBeLongerThanABuffer) {
     const std::string comment(3 << 20, '7');
     EXPECT_THAT(read({text("0 4 " + comment + "\n1 8\n")}),
                 ElementsAre(ByteAccess{4, 4, Access::read}, ByteAccess{8, 4, Access::write}));
-    EXPECT_THAT(refusal({text("0 4 " + comment + "\n9 8\n")}), HasSubstr("line 2: found label 9"));
+    for (const char* end : {"\n", "\r", "\r\n"})
+        EXPECT_THAT(refusal({text("0 4 " + comment + end + "9 8\n")}), HasSubstr("line 2: found label 9"));
 }
 
 TEST_F(AddressTraceTest, DamagedDinTextIsRefusedWithTheLine) {
@@ -241,6 +242,7 @@ TEST_F(AddressTraceTest, BadRecordsAreRefusedWithTheirRow) {
         return refusal(files);
     };
     EXPECT_EQ(with(8, 1), "accepted");
+    EXPECT_EQ(with(max_access_bytes, 0), "accepted");
     EXPECT_EQ(with(0, 0), "sizes.npy: record 17000: found a size of 0 bytes, expected 1 to 1073741824");
     EXPECT_THAT(with(max_access_bytes + 1, 0), HasSubstr("record 17000: found a size of 1073741825 bytes"));
     EXPECT_EQ(with(8, 2), "writes.npy: record 17000: found 2, expected 0 (read) or 1 (write)");
