@@ -254,7 +254,6 @@ void Hierarchy::leave(std::size_t level, Line line, LineState state) {
             LevelStats& stats = levels_[above].of(copy->writer);
             ++stats.writebacks;
             stats.bytes_out += bytes_of(copy->dirty);
-            state.valid |= copy->dirty;
             state.dirty |= copy->dirty;
             state.writer = copy->writer;
         }

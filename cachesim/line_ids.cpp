@@ -9,7 +9,7 @@ namespace regather::cachesim {
 std::uint32_t LineIds::operator()(Line line) {
     const auto number = static_cast<std::uint64_t>(line);
     const std::uint32_t next = size();
-    LineNumber& id = ids_.enter(number);
+    Id& id = ids_.enter(number);
     if (!id.free()) return id.number;
     if (next == max_lines)
         throw trace::UsageError(

@@ -18,7 +18,11 @@ public:
     static constexpr std::uint32_t max_lines = 1u << 31;
 
 private:
-    LineTable<LineNumber> ids_;
+    struct Id {
+        std::uint32_t number = ~std::uint32_t{0};
+        bool free() const { return number == ~std::uint32_t{0}; }
+    };
+    LineTable<Id> ids_;
 };
 
 }  // namespace regather::cachesim

@@ -10,4 +10,8 @@ Stamps& LineStamps::grown(std::uint64_t line) {
     return low_[line];
 }
 
+Stamps& LineStamps::hashed(std::uint64_t line) {
+    return high_.enter(line);
+}
+
 }  // namespace regather::cachesim

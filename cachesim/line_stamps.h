@@ -23,7 +23,7 @@ public:
     Stamps& of(Line line) {
         const auto number = static_cast<std::uint64_t>(line);
         if (number < low_.size()) return low_[number];
-        return number < low_lines ? grown(number) : high_.enter(number);
+        return number < low_lines ? grown(number) : hashed(number);
     }
     /// Whether all of them are in the table, which this makes large enough when they can be.
     bool low(std::span<const Line> lines) {
@@ -48,6 +48,7 @@ public:
 private:
     static constexpr std::uint64_t low_lines = std::uint64_t{1} << 24;
     Stamps& grown(std::uint64_t line);
+    Stamps& hashed(std::uint64_t line);
 
     std::vector<Stamps> low_;
     LineTable<Stamps> high_;

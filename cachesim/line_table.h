@@ -1,5 +1,5 @@
-// cachesim/line_table.h -- what is known of a line, by its number: a hash table with open addresses, 16 bytes
-// a slot with a value of 8, at most 5/8 full.
+// cachesim/line_table.h -- what is known of every line that ever came, by its number: a hash table with open
+// addresses, 16 bytes a slot with a value of 8, at most 5/8 full.
 #pragma once
 #include <bit>
 #include <cstdint>
@@ -14,13 +14,8 @@ class LineTable {
 public:
     std::size_t size() const { return size_; }
 
-    /// Null if the line has no value. Valid until the next enter() or erase().
-    const Value* find(std::uint64_t line) const {
-        const Slot& slot = slots_[place_of(line)];
-        return slot.value.free() ? nullptr : &slot.value;
-    }
-    Value* find(std::uint64_t line) { return const_cast<Value*>(std::as_const(*this).find(line)); }
-    /// The line's value; a free one, to be set at once, if it had none. Valid as that of find().
+    /// The line's value; a free one, to be set at once, if it had none. Valid until the
+    /// next call.
     Value& enter(std::uint64_t line) {
         std::size_t at = place_of(line);
         if (!slots_[at].value.free()) return slots_[at].value;
@@ -31,23 +26,6 @@ public:
         ++size_;
         slots_[at].line = line;
         return slots_[at].value;
-    }
-    /// Takes out a line that has a value.
-    void erase(std::uint64_t line) {
-        const std::size_t mask = slots_.size() - 1;
-        std::size_t hole = place_of(line);
-        // Each of the run that follows may fill the hole, unless its search starts behind it.
-        for (std::size_t at = (hole + 1) & mask; !slots_[at].value.free(); at = (at + 1) & mask)
-            if (((at - first_of(slots_[at].line)) & mask) >= ((at - hole) & mask)) {
-                slots_[hole] = slots_[at];
-                hole = at;
-            }
-        slots_[hole].value = {};
-        --size_;
-    }
-    void clear() {
-        slots_.assign(slots_.size(), {});
-        size_ = 0;
     }
     /// Calls each(Value&) for every value, in no order; it stays one that is not free.
     template <class Each>
@@ -79,12 +57,6 @@ private:
     std::vector<Slot> slots_ = std::vector<Slot>(least_slots);
     int shift_ = 64 - std::countr_zero(least_slots);
     std::size_t size_ = 0;
-};
-
-/// A line's number in an array of its owner.
-struct LineNumber {
-    std::uint32_t number = ~std::uint32_t{0};
-    bool free() const { return number == ~std::uint32_t{0}; }
 };
 
 }  // namespace regather::cachesim

@@ -1,9 +1,9 @@
-// Every line held is an entry of a table and of its set's list in order of use. One access takes the same
-// time whatever the ways.
+// Every line held is in a chain of a hash table and in its set's list in order of use. One access takes the
+// same time whatever the ways.
 #include <vector>
 
 #include "cachesim/engine.h"
-#include "cachesim/line_table.h"
+#include "cachesim/line_chains.h"
 #include "cachesim/recency_list.h"
 
 namespace regather::cachesim {
@@ -23,7 +23,9 @@ class ListEngine final : public LruCache::Engine {
 public:
     explicit ListEngine(const CacheConfig& config)
         : ways_(config.ways == fully_associative ? config.size_bytes / config.line_bytes : config.ways),
-          sets_(config.sets()) {}
+          sets_(config.sets()) {
+        held_.resize(64);
+    }
 
     void access(const Run& run, RegionStats& stats) override {
         const std::uint32_t dirty = dirty_by(run.region);
@@ -31,13 +33,12 @@ public:
         for (std::size_t i = 0; i < run.lines.size(); ++i) {
             const std::uint64_t line = static_cast<std::uint64_t>(run.lines[i]);
             Set& set = sets_[line & (sets_.size() - 1)];
-            std::uint32_t node;
-            if (const LineNumber* const held = held_.find(line)) {
-                node = held->number;
-                set.renew(nodes_, node);
-            } else {
+            std::uint32_t node = held_.find(line, [&](std::uint32_t at) { return nodes_[at].line; });
+            if (node == no_entry) {
                 ++misses;
                 node = fetch(line, set, stats);
+            } else {
+                set.renew(nodes_, node);
             }
             if (run.kind(i) == Access::write) nodes_[node].state = dirty;
         }
@@ -59,17 +60,23 @@ private:
             node = set.oldest;
             write_back(nodes_[node], stats);
             set.leave(nodes_, node);
-            held_.erase(nodes_[node].line);
+            held_.erase(nodes_[node].line, node);
         } else {
             ++set.used;
+            if (nodes_.size() == held_.entries()) grow();
             node = static_cast<std::uint32_t>(nodes_.size());
             nodes_.emplace_back();
         }
         nodes_[node].line = line;
         nodes_[node].state = clean;
-        held_.enter(line) = {node};
+        held_.enter(line, node);
         set.enter(nodes_, node);
         return node;
+    }
+
+    void grow() {
+        held_.resize(2 * nodes_.size());
+        for (std::uint32_t node = 0; node < nodes_.size(); ++node) held_.enter(nodes_[node].line, node);
     }
 
     static void write_back(const Node& node, RegionStats& stats) {
@@ -79,7 +86,7 @@ private:
     std::uint64_t ways_;
     std::vector<Set> sets_;
     std::vector<Node> nodes_;
-    LineTable<LineNumber> held_;
+    LineChains held_;
 };
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "cachesim/line_table.h"
+#include "cachesim/line_chains.h"
 #include "cachesim/recency_list.h"
 #include "trace/error.h"
 
@@ -43,6 +43,7 @@ public:
           states_(lines_.size(), 0),
           used_(config.sets(), 0),
           first_empty_(config.sets(), 0) {
+        if (ways_ > max_searched_ways) slots_.resize(lines_.size());
         forget();
     }
 
@@ -57,10 +58,8 @@ public:
 
     std::uint32_t find(Line line) const {
         const auto number = static_cast<std::uint64_t>(line);
-        if (ways_ > max_searched_ways) {
-            const LineNumber* const held = slots_.find(number);
-            return held ? held->number : none;
-        }
+        if (ways_ > max_searched_ways)
+            return slots_.find(number, [&](std::uint32_t slot) { return lines_[slot]; });
         const auto first = static_cast<std::uint32_t>(set(line) * ways_);
         for (std::uint32_t slot = first; slot < first + ways_; ++slot)
             if (lines_[slot] == number && states_[slot] != 0) return slot;
@@ -132,7 +131,7 @@ public:
     void clear(std::uint32_t slot) {
         const std::uint64_t set = slot / ways_;
         if (!order_.empty()) order_[set].leave(links_, slot);
-        if (ways_ > max_searched_ways) slots_.erase(lines_[slot]);
+        if (ways_ > max_searched_ways) slots_.erase(lines_[slot], slot);
         states_[slot] = 0;
         --used_[set];
         first_empty_[set] = std::min(first_empty_[set], static_cast<std::uint32_t>(slot % ways_));
@@ -147,7 +146,7 @@ public:
         ++used_[set];
         lines_[slot] = static_cast<std::uint64_t>(line);
         states_[slot] = state;
-        if (ways_ > max_searched_ways) slots_.enter(lines_[slot]) = {slot};
+        if (ways_ > max_searched_ways) slots_.enter(lines_[slot], slot);
         if (!order_.empty()) order_[set].enter(links_, slot);
         if (policy_ == Policy::plru) point_away(slot);
         if (policy_ == Policy::srrip) predictions_[slot] = long_ahead;
@@ -184,7 +183,7 @@ private:
     std::vector<std::uint64_t> lines_;
     std::vector<std::uint8_t> states_;
     std::vector<std::uint32_t> used_, first_empty_;  // by set; no way below first_empty_ is empty
-    LineTable<LineNumber> slots_;                    // of more ways than are searched
+    LineChains slots_;                               // of more ways than are searched
     std::vector<RecencyList> order_;                 // of a set, by use (lru) or by fetch (fifo)
     std::vector<Links> links_;
     std::vector<std::uint8_t> tree_, predictions_;  // plru; srrip

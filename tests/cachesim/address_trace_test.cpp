@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string>
 
+#include "tests/scratch.h"
 #include "trace/error.h"
 #include "trace/npy.h"
 
@@ -19,13 +20,7 @@ using testing::HasSubstr;
 
 class AddressTraceTest : public testing::Test {
 protected:
-    void SetUp() override {
-        folder_ = path(testing::TempDir()) / (std::string("address trace ") +
-                                              testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
+    void SetUp() override { std::filesystem::create_directories(folder_); }
 
     path text(const std::string& content) const {
         std::ofstream(folder_ / "trace.din", std::ios::binary) << content;
@@ -65,7 +60,8 @@ protected:
         return "accepted";
     }
 
-    path folder_;
+    const Scratch scratch_;
+    const path folder_ = scratch_ / "address trace";
 };
 
 constexpr std::uint64_t top = ~std::uint64_t{0};
@@ -153,7 +149,8 @@ TEST_F(AddressTraceTest, ACommentMayBeLongerThanABuffer) {
     const std::string comment(3 << 20, '7');
     EXPECT_THAT(read({text("0 4 " + comment + "\n1 8\n")}),
                 ElementsAre(ByteAccess{4, 4, Access::read}, ByteAccess{8, 4, Access::write}));
-    EXPECT_THAT(refusal({text("0 4 " + comment + "\n9 8\n")}), HasSubstr("line 2: found label 9"));
+    for (const char* end : {"\n", "\r", "\r\n"})
+        EXPECT_THAT(refusal({text("0 4 " + comment + end + "9 8\n")}), HasSubstr("line 2: found label 9"));
 }
 
 TEST_F(AddressTraceTest, DamagedDinTextIsRefusedWithTheLine) {
@@ -245,6 +242,7 @@ TEST_F(AddressTraceTest, BadRecordsAreRefusedWithTheirRow) {
         return refusal(files);
     };
     EXPECT_EQ(with(8, 1), "accepted");
+    EXPECT_EQ(with(max_access_bytes, 0), "accepted");
     EXPECT_EQ(with(0, 0), "sizes.npy: record 17000: found a size of 0 bytes, expected 1 to 1073741824");
     EXPECT_THAT(with(max_access_bytes + 1, 0), HasSubstr("record 17000: found a size of 1073741825 bytes"));
     EXPECT_EQ(with(8, 2), "writes.npy: record 17000: found 2, expected 0 (read) or 1 (write)");

@@ -1,4 +1,4 @@
-// The table of lines against a map, while lines come and go; the list of entries against a std::list.
+// The tables of lines against maps, the list of entries against a std::list.
 #include "cachesim/line_table.h"
 
 #include <gtest/gtest.h>
@@ -7,53 +7,83 @@
 #include <algorithm>
 #include <list>
 #include <map>
+#include <numeric>
 
+#include "cachesim/line_chains.h"
 #include "cachesim/recency_list.h"
 #include "tests/cachesim/brute_force.h"
 
 namespace regather::cachesim {
 namespace {
 
-/// Holds the table against the map, for lines that are in it and for as many that are not.
-void expect_equal(LineTable<LineNumber>& table, const std::map<std::uint64_t, std::uint32_t>& map) {
-    RC_ASSERT(table.size() == map.size());
-    for (const auto& [line, number] : map) {
-        RC_ASSERT(table.find(line) != nullptr);
-        RC_ASSERT(table.find(line)->number == number);
-        RC_ASSERT(map.contains(line + 1) || table.find(line + 1) == nullptr);
-    }
-    std::vector<std::uint32_t> found, expected;
-    table.for_each([&](const LineNumber& value) { found.push_back(value.number); });
-    for (const auto& [line, number] : map) expected.push_back(number);
-    std::sort(found.begin(), found.end());
-    std::sort(expected.begin(), expected.end());
-    RC_ASSERT(found == expected);
+struct Number {
+    std::uint32_t number = 0;
+    bool free() const { return number == 0; }
+};
+
+/// Lines from a few places: multiples of 2^58 begin in few places of the tables, so that runs and chains are
+/// long.
+std::uint64_t any_line(Scatter& scatter, std::uint64_t universe, int shift) {
+    return scatter.below(universe) << shift;
 }
 
-TEST(LineTable, EqualsAMapWhileLinesComeAndGo) {
+TEST(LineTable, EqualsAMap) {
     ASSERT_TRUE(rc::check([] {
         Scatter scatter(*rc::gen::arbitrary<std::uint64_t>());
-        // Multiples of 2^58 begin in few places of the table: long runs, over its end, too.
         const int shift = *rc::gen::element(0, 0, 3, 40, 58);
         const std::uint64_t universe = *rc::gen::element<std::uint64_t>(8, 39, 60, 3000);
-        LineTable<LineNumber> table;
+        LineTable<Number> table;
         std::map<std::uint64_t, std::uint32_t> map;
-        const int steps = universe == 3000 ? 5000 : 600;
-        for (int step = 0; step < steps; ++step) {
-            const std::uint64_t line = scatter.below(universe) << shift;
-            if (map.contains(line) && scatter.below(2) == 0) {
-                table.erase(line);
-                map.erase(line);
-            } else {
-                LineNumber& value = table.enter(line);
-                RC_ASSERT(value.free() == !map.contains(line));
-                value.number = map[line] = static_cast<std::uint32_t>(step);
-            }
-            if (step % 50 == 0) expect_equal(table, map);
+        for (std::uint32_t step = 1; step < 3000; ++step) {
+            const std::uint64_t line = any_line(scatter, universe, shift);
+            Number& value = table.enter(line);
+            RC_ASSERT(value.free() == !map.contains(line));
+            RC_ASSERT(value.free() || value.number == map[line]);
+            value.number = map[line] = step;
+            RC_ASSERT(table.size() == map.size());
         }
-        expect_equal(table, map);
-        table.clear();
-        expect_equal(table, {});
+        std::vector<std::uint32_t> found, expected;
+        table.for_each([&](const Number& value) { found.push_back(value.number); });
+        for (const auto& [line, number] : map) expected.push_back(number);
+        std::sort(found.begin(), found.end());
+        std::sort(expected.begin(), expected.end());
+        RC_ASSERT(found == expected);
+    }));
+}
+
+TEST(LineChains, EqualAMapWhileLinesComeAndGo) {
+    ASSERT_TRUE(rc::check([] {
+        Scatter scatter(*rc::gen::arbitrary<std::uint64_t>());
+        const int shift = *rc::gen::element(0, 3, 40, 58);
+        const std::uint64_t universe = *rc::gen::element<std::uint64_t>(3, 8, 60);
+        std::vector<std::uint64_t> lines(universe);
+        std::vector<std::uint32_t> empty(universe);
+        std::iota(empty.begin(), empty.end(), 0u);
+        LineChains chains;
+        chains.resize(universe);
+        std::map<std::uint64_t, std::uint32_t> map;
+        const auto find = [&](std::uint64_t line) {
+            return chains.find(line, [&](std::uint32_t at) { return lines[at]; });
+        };
+        for (int step = 0; step < 500; ++step) {
+            const std::uint64_t line = any_line(scatter, universe, shift);
+            const auto found = map.find(line);
+            RC_ASSERT(find(line) == (found == map.end() ? no_entry : found->second));
+            if (found == map.end()) {
+                std::swap(empty[scatter.below(empty.size())], empty.back());
+                lines[empty.back()] = line;
+                chains.enter(line, empty.back());
+                map[line] = empty.back();
+                empty.pop_back();
+            } else if (scatter.below(2) == 0) {
+                chains.erase(line, found->second);
+                empty.push_back(found->second);
+                map.erase(found);
+            }
+        }
+        for (const auto& [line, at] : map) RC_ASSERT(find(line) == at);
+        chains.clear();
+        for (const auto& [line, at] : map) RC_ASSERT(find(line) == no_entry);
     }));
 }
 

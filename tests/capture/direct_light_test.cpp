@@ -60,10 +60,10 @@ TEST(DirectLight, IsTheIntegralOverTheLightsWhateverTheRaysThatLookForIt) {
                                         [](const Material& m) { return m.name == "lacquer"; });
         ASSERT_NE(floor, scene.materials.end());
         const double expected = by_quadrature(*floor);
-        for (const auto& [shadow, gather] : {std::pair{1u, 1u}, {16u, 1u}, {64u, 4u}, {1u, 32u}}) {
+        for (const auto& [shadow, gather] : {std::pair{1u, 1u}, {16u, 1u}, {32u, 2u}, {1u, 16u}}) {
             CaptureConfig config;
-            config.pixels = {.width = 96,
-                             .height = 96,
+            config.pixels = {.width = 64,
+                             .height = 64,
                              .gather_rays = gather,
                              .shadow_rays = shadow,
                              .max_specular = 2,
@@ -75,7 +75,7 @@ TEST(DirectLight, IsTheIntegralOverTheLightsWhateverTheRaysThatLookForIt) {
             for (const Vec3 pixel : capture(scene, config).image.pixels)
                 pixels.add({static_cast<double>(pixel.x)}, ++count);
             const double error = std::sqrt(pixels.variance(0, count));
-            EXPECT_LT(4 * error, 0.04 * expected) << parts << " " << shadow << " " << gather;
+            EXPECT_LT(4 * error, 0.06 * expected) << parts << " " << shadow << " " << gather;
             EXPECT_NEAR(pixels.mean[0], expected, 4 * error) << parts << " " << shadow << " " << gather;
         }
     }
