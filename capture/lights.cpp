@@ -11,32 +11,18 @@
 namespace regather::capture {
 namespace {
 
-using Wide = std::array<double, 3>;
+using trace::Vec3d;
 
 constexpr std::size_t most_single_lights = 64;
 constexpr double rounding = 0x1p-20;  // of float coordinates: a few times their own
 
-Wide widened(Vec3 v) {
-    return {v.x, v.y, v.z};
-}
-double dot(const Wide& a, const Wide& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Wide difference(const Wide& a, const Wide& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Wide cross(const Wide& a, const Wide& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 double component_sum(Vec3 v) {
     return static_cast<double>(v.x) + v.y + v.z;
 }
 
 /// Rounded once: a point of a plane z = constant has that z to the last bit.
 Vec3 spanned(Vec3 corner, Vec3 edge_u, double u, Vec3 edge_v, double v) {
-    return {static_cast<float>(corner.x + edge_u.x * u + edge_v.x * v),
-            static_cast<float>(corner.y + edge_u.y * u + edge_v.y * v),
-            static_cast<float>(corner.z + edge_u.z * u + edge_v.z * v)};
+    return to_float(Vec3d(corner) + Vec3d(edge_u) * u + Vec3d(edge_v) * v);
 }
 
 /// Where `at` falls in rising partial sums, at a step of more than 0.
@@ -50,16 +36,15 @@ std::size_t find_step(std::span<const double> cumulative, double at) {
 }  // namespace
 
 LightSampler::LightSampler(const Scene& scene) : scene_(scene), lights_(scene.lights.size()) {
-    std::array<double, 3> power{};
+    Vec3d power;
     for (std::uint32_t l = 0; l < lights_.size(); ++l) {
         measure(l);
         if (!(lights_[l].bound.power > 0)) continue;
         order_.push_back(l);
         for (int c = 0; c < 3; ++c)
-            power[static_cast<std::size_t>(c)] +=
-                std::numbers::pi * scene.lights[l].radiance[c] / lights_[l].density;
+            power[c] += std::numbers::pi * scene.lights[l].radiance[c] / lights_[l].density;
     }
-    total_power_ = {static_cast<float>(power[0]), static_cast<float>(power[1]), static_cast<float>(power[2])};
+    total_power_ = to_float(power);
 
     const std::size_t lit = order_.size();
     divide(0, lit,
@@ -77,14 +62,14 @@ void LightSampler::measure(std::uint32_t l) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     bound.low = {infinity, infinity, infinity};
     bound.high = {-infinity, -infinity, -infinity};
-    const auto enclose = [&](const Wide& point) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto enclose = [&](Vec3d point) {
+        for (int axis = 0; axis < 3; ++axis) {
             bound.low[axis] = std::min(bound.low[axis], point[axis]);
             bound.high[axis] = std::max(bound.high[axis], point[axis]);
         }
     };
     double area = 0;
-    Wide normal{};  // times the area
+    Vec3d normal;  // times the area
     const auto corner = [&](std::uint32_t triangle, std::size_t i) {
         return scene_.vertices[scene_.triangles[triangle][i]];
     };
@@ -93,41 +78,37 @@ void LightSampler::measure(std::uint32_t l) {
         own.first_area = areas_.size();
         for (std::uint32_t t = first; t < last; ++t) {
             areas_.push_back(area += scenes::triangle_area(corner(t, 0), corner(t, 1), corner(t, 2)));
-            for (std::size_t i = 0; i < 3; ++i) enclose(widened(corner(t, i)));
-            const Wide a = widened(corner(t, 0));
-            const Wide part =
-                cross(difference(widened(corner(t, 1)), a), difference(widened(corner(t, 2)), a));
-            for (std::size_t axis = 0; axis < 3; ++axis) normal[axis] += 0.5 * part[axis];
+            for (std::size_t i = 0; i < 3; ++i) enclose(corner(t, i));
+            const Vec3d a = corner(t, 0);
+            normal += 0.5 * cross(Vec3d(corner(t, 1)) - a, Vec3d(corner(t, 2)) - a);
         }
     } else {
         for (const float u : {0.0f, 1.0f})
-            for (const float v : {0.0f, 1.0f})
-                enclose(widened(light.corner + light.edge_u * u + light.edge_v * v));
-        normal = cross(widened(light.edge_u), widened(light.edge_v));
-        area = std::sqrt(dot(normal, normal));
+            for (const float v : {0.0f, 1.0f}) enclose(light.corner + light.edge_u * u + light.edge_v * v);
+        normal = cross(Vec3d(light.edge_u), Vec3d(light.edge_v));
+        area = length(normal);
     }
     if (!(area > 0)) return;
 
     own.density = 1 / area;
     bound.power = std::numbers::pi * area * component_sum(light.radiance);
-    const Wide diagonal = difference(bound.high, bound.low);
-    bound.radius = 0.5 * std::sqrt(dot(diagonal, diagonal));
+    bound.radius = 0.5 * length(bound.high - bound.low);
     double largest = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    for (int axis = 0; axis < 3; ++axis)
         largest = std::max({largest, std::fabs(bound.low[axis]), std::fabs(bound.high[axis])});
     // The areas of triangles that face the same way add up to the length of the sum of their normals.
-    const double facing = std::sqrt(dot(normal, normal));
+    const double facing = length(normal);
     bound.flat = facing >= area * (1 - 1e-9);
     if (!bound.flat) return;
-    for (double& component : normal) component /= facing;
+    normal = {normal.x / facing, normal.y / facing, normal.z / facing};
     bound.plane_normal = normal;
-    bound.plane_offset = dot(normal, widened(light.is_mesh() ? corner(first, 0) : light.corner));
+    bound.plane_offset = dot(normal, Vec3d(light.is_mesh() ? corner(first, 0) : light.corner));
     bound.plane_slack = largest * rounding;
     for (std::uint32_t t = first; t < last; ++t)
         for (std::size_t i = 0; i < 3; ++i)
             bound.plane_slack = std::max(
                 bound.plane_slack,
-                largest * rounding + std::fabs(dot(normal, widened(corner(t, i))) - bound.plane_offset));
+                largest * rounding + std::fabs(dot(normal, Vec3d(corner(t, i))) - bound.plane_offset));
 }
 
 /// Groups of at most `most` neighbours among order_[first, last): halves along the longest side of their
@@ -137,7 +118,7 @@ void LightSampler::divide(std::size_t first, std::size_t last, std::size_t most)
     Bound all = lights_[order_[first]].bound;
     for (std::size_t i = first; i < last; ++i) {
         const Bound& bound = lights_[order_[i]].bound;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (int axis = 0; axis < 3; ++axis) {
             all.low[axis] = std::min(all.low[axis], bound.low[axis]);
             all.high[axis] = std::max(all.high[axis], bound.high[axis]);
         }
@@ -148,16 +129,15 @@ void LightSampler::divide(std::size_t first, std::size_t last, std::size_t most)
         if (last - first > 1) {
             all.power = 0;
             for (std::size_t i = first; i < last; ++i) all.power += lights_[order_[i]].bound.power;
-            const Wide diagonal = difference(all.high, all.low);
-            all.radius = 0.5 * std::sqrt(dot(diagonal, diagonal));
+            all.radius = 0.5 * length(all.high - all.low);
             all.flat = false;
         }
         group_first_.push_back(first);
         groups_.push_back(all);
         return;
     }
-    const Wide size = difference(all.high, all.low);
-    const auto axis = static_cast<std::size_t>(std::max_element(size.begin(), size.end()) - size.begin());
+    const Vec3d size = all.high - all.low;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const auto centre = [&](std::uint32_t l) {
         return lights_[l].bound.low[axis] + lights_[l].bound.high[axis];
     };
@@ -211,11 +191,8 @@ LightPoint LightSampler::sample_light(std::uint32_t l, double u, double v) const
                c = scene_.vertices[corners[2]];
     const double root = std::sqrt(again);
     point.position = spanned(a, b - a, root * (1 - v), c - a, root * v);
-    const Wide wide_a = widened(a),
-               normal = cross(difference(widened(b), wide_a), difference(widened(c), wide_a));
-    const double scale = 1 / std::sqrt(dot(normal, normal));
-    point.normal = {static_cast<float>(normal[0] * scale), static_cast<float>(normal[1] * scale),
-                    static_cast<float>(normal[2] * scale)};
+    const Vec3d normal = cross(Vec3d(b) - a, Vec3d(c) - a);
+    point.normal = to_float(normal * (1 / length(normal)));
     return point;
 }
 
@@ -223,7 +200,7 @@ LightPoint LightSampler::sample_light(std::uint32_t l, double u, double v) const
 /// distance.
 double LightSampler::estimate(const Bound& bound, const View& view) {
     double distance2 = 0, above = 0, size = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 3; ++axis) {
         const double x = view.position_[axis], low = bound.low[axis] - x, high = bound.high[axis] - x;
         const double middle = 0.5 * (low + high), side = view.side_[axis];
         distance2 += middle * middle;
@@ -248,8 +225,8 @@ double LightSampler::estimate(const Bound& bound, const View& view) {
 }
 
 void LightSampler::look(Vec3 position, Vec3 side, View& view) const {
-    view.position_ = widened(position);
-    view.side_ = widened(side);
+    view.position_ = position;
+    view.side_ = side;
     view.cumulative_.resize(groups_.size());
     view.total_ = 0;
     for (std::size_t g = 0; g < groups_.size(); ++g)

@@ -8,7 +8,6 @@
 // estimate for each light of one group (10,000 lights: 128 and at most 79; a few microseconds). Lengths in
 // scene units, radiance [W / (m^2 sr)], power [W], densities [1 / m^2].
 #pragma once
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -16,6 +15,7 @@
 
 #include "capture/sampler.h"
 #include "scenes/scene.h"
+#include "trace/vec3d.h"
 
 namespace regather::capture {
 
@@ -44,7 +44,7 @@ public:
 
 private:
     friend class LightSampler;
-    std::array<double, 3> position_{}, side_{};
+    trace::Vec3d position_, side_;
     std::vector<double> cumulative_;  // over the groups
     double total_ = 0;
 };
@@ -83,8 +83,8 @@ public:
 private:
     /// What an estimate looks at: of a light, or of a group of them.
     struct Bound {
-        std::array<double, 3> low, high;     // box
-        std::array<double, 3> plane_normal;  // of a flat light
+        trace::Vec3d low, high;     // box
+        trace::Vec3d plane_normal;  // of a flat light
         double plane_offset = 0, plane_slack = 0;
         double radius = 0, power = 0;
         bool flat = false;

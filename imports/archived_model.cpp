@@ -46,8 +46,8 @@ void take_texture(Material& material, const std::string& texture, const Zip& zip
     if (texture.empty() || !is_readable_image(texture)) return;
     if (material.kind != MaterialKind::diffuse && material.kind != MaterialKind::glossy) return;
     const std::string entry = folder + texture;
-    material.diffuse =
-        mean_colour(zip.read(entry, most_model_bytes), fmt::format("{}: {}", zip.archive(), entry));
+    material.diffuse = mean_colour(zip.read(entry, most_model_bytes),
+                                   fmt::format("{}: {}", zip.archive(), trace::shown(entry, 200)));
 }
 
 Material special_material(std::string_view group) {
@@ -84,7 +84,7 @@ Model read_model(const Zip& zip, const std::string& name) {
     while (!entry.empty() && entry.front() == '/') entry.erase(0, 1);
     const std::string folder = entry.substr(0, entry.rfind('/') + 1);  // npos + 1 = 0
     const std::string text = text_of(zip.read(entry, most_model_bytes));
-    const std::string file = fmt::format("{}: {}", zip.archive(), entry);
+    const std::string file = fmt::format("{}: {}", zip.archive(), trace::shown(entry, 200));
     const auto path_of = [&](const std::string& library) {
         const fs::path path(library);
         if (path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end())
@@ -99,7 +99,7 @@ Model read_model(const Zip& zip, const std::string& name) {
          .stem = {},
          .has_beside = [&](const std::string& library) { return zip.has(path_of(library)); },
          .read_beside = [&](const std::string& library) -> meshes::Neighbour {
-             return {fmt::format("{}: {}", zip.archive(), path_of(library)),
+             return {fmt::format("{}: {}", zip.archive(), trace::shown(path_of(library), 200)),
                      text_of(zip.read(path_of(library), most_model_bytes))};
          }});
 
@@ -112,9 +112,12 @@ Model read_model(const Zip& zip, const std::string& name) {
             tags[t] = materials + (special == pane_material ? 0 : 1);
     Model model;
     model.notes = notes_of(mesh);
-    if (!mesh.missing_libraries.empty())
+    const auto unread = std::count_if(
+        mesh.materials.begin(), mesh.materials.end(),
+        [](const meshes::Material& m) { return !m.texture.empty() && !is_readable_image(m.texture); });
+    if (unread > 0)
         model.notes.push_back(
-            fmt::format("material libraries (mtllib) that are not there: {}", mesh.missing_libraries.size()));
+            fmt::format("textures that are neither .jpg, .png nor .tga are not read: {}", unread));
     if (mesh.degenerate_faces > 0)
         model.notes.push_back(fmt::format("faces without an area: {}", mesh.degenerate_faces));
     for (std::uint32_t tag = 0; tag < materials + 2; ++tag) {

@@ -10,7 +10,7 @@ namespace regather::imports {
 
 namespace {
 
-constexpr std::size_t most_names = 24, most_kept = 10'000, most_bytes = 40, most_notes = 24;
+constexpr std::size_t most_names = 60, most_kept = 10'000, most_bytes = 40, most_notes = 24;
 
 }  // namespace
 
@@ -53,7 +53,8 @@ std::vector<std::string> LeftOut::lines() const {
         lines.push_back(std::move(line));
     }
     for (const auto& [what, times] : notes_)
-        lines.push_back(fmt::format("models: {}: {}, in {} models", what, times.count, times.models));
+        lines.push_back(fmt::format("models: {}: {}, in {} model{}", what, times.count, times.models,
+                                    times.models == 1 ? "" : "s"));
     return lines;
 }
 

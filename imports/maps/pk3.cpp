@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "trace/text.h"
+
 namespace regather::imports {
 
 std::string lower_case(std::string_view text) {
@@ -33,7 +35,7 @@ std::vector<std::uint8_t> Pk3Archives::read(const std::string& name, std::uint64
 
 std::string Pk3Archives::place(const std::string& name) const {
     const Entry& entry = entries_.at(name);
-    return fmt::format("{}: {}", zips_[entry.zip].archive(), entry.name);
+    return fmt::format("{}: {}", zips_[entry.zip].archive(), trace::shown(entry.name, 200));
 }
 
 std::string Pk3Archives::archive(const std::string& name) const {
