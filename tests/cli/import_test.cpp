@@ -66,5 +66,67 @@ TEST(Import, AnUnknownKindOrAnotherKindsOptionIsAUsageError) {
     EXPECT_EQ(regather({"import", "mesh", "x.obj"}).exit_code, 2);
 }
 
+TEST(Import, AFileWithoutAKindIsAnsweredWithWhatToType) {
+    const Scratch scratch;
+    const std::string file = (scratch / "t.obj").string();
+    write(file, triangle);
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"import", file},
+                                                  {"import", file, "-o", "y"},
+                                                  {"import", file, "other.obj", "-o", "y"}}) {
+        const Outcome outcome = regather(words);
+        EXPECT_EQ(outcome.exit_code, 2);
+        EXPECT_THAT(outcome.err,
+                    HasSubstr("expected a kind before it: regather import mesh " + file + " -o DIR"));
+    }
+    EXPECT_THAT(regather({"import", "a.sh3d", "-o", "y"}).err,
+                HasSubstr("regather import sweethome3d a.sh3d -o DIR"));
+    EXPECT_THAT(regather({"import", "a.pk3"}).err, HasSubstr("regather import openarena a.pk3 -o DIR"));
+    const Outcome none = regather({"import", "mesh"});
+    EXPECT_EQ(none.exit_code, 2);
+    EXPECT_THAT(none.err, HasSubstr("FILE: found none, expected what to read"));
+}
+
+TEST(Import, AMeshGivenAsASceneIsAnsweredWithWhatToType) {
+    const Scratch scratch;
+    const std::string file = (scratch / "t.obj").string(), out = (scratch / "out").string();
+    write(file, triangle);
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"info", file}, {"scenes", file}, {"capture", file, "-o", out}}) {
+        const Outcome outcome = regather(words);
+        EXPECT_EQ(outcome.exit_code, 2);
+        EXPECT_THAT(outcome.err, HasSubstr("regather import mesh " + file + " -o DIR"));
+    }
+    EXPECT_FALSE(fs::exists(out));
+}
+
+TEST(Import, TheAxisThatIsUpAndWhatAFileHoldsBeyondTrianglesAreSaid) {
+    const Scratch scratch;
+    const std::string file = (scratch / "t.obj").string(), out = (scratch / "out").string();
+    write(file, std::string("mtllib gone.mtl\nl 1 2\n") + triangle);
+    const Outcome first = regather({"import", "mesh", file, "-o", out});
+    EXPECT_EQ(first.exit_code, 0);
+    EXPECT_THAT(first.out, HasSubstr("up       y of the file, by default: see --up"));
+    EXPECT_EQ(first.err, "note: " + file + ": lines (l) are not read: 1\nnote: " + file +
+                             ": the material library \"gone.mtl\" is not there: 1\n");
+    const Outcome second = regather({"import", "mesh", file, "-o", out, "--force", "--up", "x"});
+    EXPECT_THAT(second.out, HasSubstr("up       x of the file\n"));
+    // A scene that names the mesh itself: each command that loads it says the same.
+    write(
+        scratch / "s.json",
+        R"({"name": "s", "camera": {"position": [0, -3, 1], "target": [0, 0, 0], "up": [0, 0, 1], "vertical_fov_degrees": 50},
+              "materials": {"m": {"kind": "diffuse", "diffuse": [0.5, 0.5, 0.5]}},
+              "shapes": [{"type": "mesh", "file": "t.obj", "material": "m"}],
+              "lights": [{"corner": [0, 0, 2], "edge_u": [0, 1, 0], "edge_v": [1, 0, 0], "radiance": [1, 1, 1]}]})");
+    const std::string scene = (scratch / "s.json").string();
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"info", scene},
+                                                  {"scenes", scene},
+                                                  {"capture", scene, "-o", (scratch / "capture").string(),
+                                                   "--width", "4", "--photons", "100", "--samples", "1"}}) {
+        const Outcome outcome = regather(words);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr("note: " + file + ": lines (l) are not read: 1\n"));
+    }
+}
+
 }  // namespace
 }  // namespace regather::cli
