@@ -107,6 +107,8 @@ trace::Json parameters(const Scene& scene, const CaptureConfig& config) {
          {"surface_check", config.gather.surface_check},
          {"seed", pixels.seed},
          {"scene_checksum", checksum(scene)}});
+    if (!config.renderer.empty())
+        all["renderer"] = trace::Json::object({{"scene", scene.name}, {"fingerprint", config.renderer}});
     if (config.frame) all["frame"] = *config.frame;
     if (!config.keep.empty()) all["keep"] = config.keep;
     if (has_caustic_map(scene, config))

@@ -40,6 +40,8 @@ struct CaptureConfig {
     std::set<std::string> keep;  ///< Parts that the scene has no need of (scenes/needs.h), kept all the same.
     std::optional<std::uint32_t>
         frame;  ///< Of the camera path, for trace.json; the scene's camera is where it looks from.
+    /// fingerprint() of the scene, for trace.json; empty: left out there.
+    std::string renderer;
     /// Order of the searches within a batch of pixels; empty: capture order. It changes the time, not a bit
     /// of the result.
     std::function<std::vector<std::uint32_t>(const Queries&)> order;

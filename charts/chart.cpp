@@ -2,73 +2,52 @@
 
 #include <fmt/format.h>
 
-#include "charts/accuracy.h"
-#include "charts/bars.h"
-#include "charts/budget.h"
-#include "charts/convergence.h"
-#include "charts/depth.h"
-#include "charts/frames.h"
 #include "charts/gnuplot.h"
-#include "charts/stability.h"
-#include "charts/sweep.h"
-#include "charts/timeline.h"
+#include "charts/kinds.h"
 #include "trace/error.h"
 #include "trace/file.h"
 
 namespace regather::charts {
 namespace {
 
-constexpr ChartKind kinds_table[] = {
-    {"traffic-by-tile", "Memory traffic by tile size", "at least 2 tile sizes", results::RowKind::measurement,
-     traffic_by_tile},
-    {"traffic-by-cache", "Memory traffic by cache size", "at least 2 cache sizes",
-     results::RowKind::measurement, traffic_by_cache},
-    {"cost-by-tile", "Cost of reordering by tile size", "at least 2 tile sizes",
-     results::RowKind::measurement, cost_by_tile},
-    {"cost-by-bins", "Cost of reordering by number of direction bins", "at least 2 numbers of bins",
-     results::RowKind::measurement, cost_by_bins},
-    {"misses-by-class", "Why lines are missed", "compulsory, capacity and conflict",
-     results::RowKind::measurement, misses_by_class},
-    {"net-benefit", "Best ordering by on-chip budget",
-     "at least 2 budgets, and buffer_traffic_bytes or reorder_bytes", results::RowKind::measurement,
-     net_benefit},
-    {"traffic-by-frame", "Memory traffic along the camera path", "at least 2 frames",
-     results::RowKind::measurement, traffic_by_frame},
-    {"traffic-by-depth", "Memory traffic by depth in the tree", "rows by region and tree depth",
-     results::RowKind::detail, traffic_by_depth},
-    {"timeline", "Misses over the run", "rows by slice of the run", results::RowKind::timeline, timeline},
-    {"sampling-error", "Set sampling: error against run time", "rows of sampled runs",
-     results::RowKind::sampling, sampling_error},
-    {"error-by-time", "Error against run time", "rows of settings with total_seconds and rmse",
-     results::RowKind::convergence, error_by_time},
-    {"error-by-render-time", "Error against render time", "rows of settings with render_seconds and rmse",
-     results::RowKind::convergence, error_by_render_time},
-    {"efficiency", "Efficiency: 1 / (variance × run time)", "rows of settings with efficiency",
-     results::RowKind::convergence, efficiency},
-    {"bias-by-photons", "Bias and variance by number of photons",
-     "direct visualisation at 2 or more numbers of photons", results::RowKind::convergence, bias_by_photons},
-    {"bias-by-k", "Bias and variance by photons of a gather",
-     "direct visualisation at 2 or more k with the photons held", results::RowKind::convergence, bias_by_k},
-    {"stability", "Stiff and extreme cases: error and what is allowed", "rows of the stability study",
-     results::RowKind::stability, stability},
-};
-
-bool has(const Rows& rows, results::RowKind kind) {
-    switch (kind) {
-        case results::RowKind::detail:
-            return !rows.details.empty();
-        case results::RowKind::timeline:
-            return !rows.timeline.empty();
-        case results::RowKind::sampling:
-            return !rows.sampling.empty();
-        case results::RowKind::convergence:
-            return !rows.convergence.empty();
-        case results::RowKind::stability:
-            return !rows.stability.empty();
-        default:
-            return !rows.measurements.empty();
-    }
+template <class R>
+bool any(const results::Rows& rows) {
+    return !rows.of<R>().empty();
 }
+
+constexpr ChartKind kinds_table[] = {
+    {"traffic-by-tile", "Memory traffic by tile size", "at least 2 tile sizes", any<results::Row>,
+     traffic_by_tile},
+    {"traffic-by-cache", "Memory traffic by cache size", "at least 2 cache sizes", any<results::Row>,
+     traffic_by_cache},
+    {"cost-by-tile", "Cost of reordering by tile size", "at least 2 tile sizes", any<results::Row>,
+     cost_by_tile},
+    {"cost-by-bins", "Cost of reordering by number of direction bins", "at least 2 numbers of bins",
+     any<results::Row>, cost_by_bins},
+    {"misses-by-class", "Why lines are missed", "compulsory, capacity and conflict", any<results::Row>,
+     misses_by_class},
+    {"net-benefit", "Best ordering by on-chip budget",
+     "at least 2 budgets, and buffer_traffic_bytes or reorder_bytes", any<results::Row>, net_benefit},
+    {"traffic-by-frame", "Memory traffic along the camera path", "at least 2 frames", any<results::Row>,
+     traffic_by_frame},
+    {"traffic-by-depth", "Memory traffic by depth in the tree", "rows by region and tree depth",
+     any<results::DetailRow>, traffic_by_depth},
+    {"timeline", "Misses over the run", "rows by slice of the run", any<results::TimelineRow>, timeline},
+    {"sampling-error", "Set sampling: error against run time", "rows of sampled runs",
+     any<results::SamplingRow>, sampling_error},
+    {"error-by-time", "Error against run time", "rows of settings with total_seconds and rmse",
+     any<results::ConvergenceRow>, error_by_time},
+    {"error-by-render-time", "Error against render time", "rows of settings with render_seconds and rmse",
+     any<results::ConvergenceRow>, error_by_render_time},
+    {"efficiency", "Efficiency: 1 / (variance × run time)", "rows of settings with efficiency",
+     any<results::ConvergenceRow>, efficiency},
+    {"bias-by-photons", "Bias and variance by number of photons",
+     "direct visualisation at 2 or more numbers of photons", any<results::ConvergenceRow>, bias_by_photons},
+    {"bias-by-k", "Bias and variance by photons of a gather",
+     "direct visualisation at 2 or more k with the photons held", any<results::ConvergenceRow>, bias_by_k},
+    {"stability", "Stiff and extreme cases: error and what is allowed", "rows of the stability study",
+     any<results::StabilityRow>, stability},
+};
 
 std::string xml_text(std::string_view text) {
     std::string out;
@@ -121,16 +100,16 @@ std::string render(const Chart& chart, Picture picture) {
     return bytes;
 }
 
-std::vector<const ChartKind*> wanted_kinds(const Rows& rows, std::span<const std::string> names) {
+std::vector<const ChartKind*> wanted_kinds(const results::Rows& rows, std::span<const std::string> names) {
     std::vector<const ChartKind*> out;
     for (const std::string& name : names) out.push_back(&chart_kind(name));
     if (!names.empty()) return out;
     for (const ChartKind& kind : kinds_table)
-        if (has(rows, kind.rows)) out.push_back(&kind);
+        if (kind.has_rows(rows)) out.push_back(&kind);
     return out;
 }
 
-std::vector<Drawn> write_charts(const std::filesystem::path& folder, const Rows& rows,
+std::vector<Drawn> write_charts(const std::filesystem::path& folder, const results::Rows& rows,
                                 std::span<const std::string> kinds, const ChartOptions& options) {
     std::vector<Drawn> out;
     for (const ChartKind* kind : wanted_kinds(rows, kinds)) {
@@ -144,11 +123,6 @@ std::vector<Drawn> write_charts(const std::filesystem::path& folder, const Rows&
         }
     }
     return out;
-}
-
-std::vector<Drawn> write_charts(const std::filesystem::path& folder, std::span<const results::Row> rows,
-                                std::span<const std::string> kinds, const ChartOptions& options) {
-    return write_charts(folder, Rows{rows, {}, {}, {}}, kinds, options);
 }
 
 }  // namespace regather::charts

@@ -1,5 +1,5 @@
 // charts/chart.h -- the charts: rows in, SVG and PNG out, drawn by gnuplot. How to read each:
-// docs/charts.md. Each kind is composed from one kind of rows by the file that bears its noun.
+// docs/charts.md. Each is drawn from one kind of rows by the file in kinds/ that bears its name.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -8,8 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "results/csv.h"
+#include "charts/figure.h"
 #include "results/geometry.h"
+#include "results/rows.h"
 
 namespace regather::charts {
 
@@ -18,34 +19,10 @@ struct ChartOptions {
     std::uint64_t tile = 16, bins = 16;      ///< Held where they are not the axis; series.h, Slice.
 };
 
-/// A composed chart: what gnuplot is to draw, without the kind of file.
-struct Chart {
-    std::string title, caption;
-    unsigned width = 0, height = 0;  ///< [SVG pixels]; a PNG has twice as many.
-    std::string commands;
-    std::string skipped;  ///< Why there is nothing to draw; then all else is empty.
-};
-
-inline Chart skip(std::string reason) {
-    Chart chart;
-    chart.skipped = std::move(reason);
-    return chart;
-}
-
-/// All that there is to draw from.
-struct Rows {
-    std::span<const results::Row> measurements;
-    std::span<const results::DetailRow> details;
-    std::span<const results::TimelineRow> timeline;
-    std::span<const results::SamplingRow> sampling;
-    std::span<const results::ConvergenceRow> convergence = {};
-    std::span<const results::StabilityRow> stability = {};
-};
-
 struct ChartKind {
     std::string_view name, title, needs;
-    results::RowKind rows;  ///< What it is drawn from.
-    Chart (*compose)(const ChartKind&, const Rows&, const ChartOptions&);
+    bool (*has_rows)(const results::Rows&);  ///< Whether there are any of the kind that it is drawn from.
+    Chart (*compose)(const ChartKind&, const results::Rows&, const ChartOptions&);
 };
 std::span<const ChartKind> chart_kinds();
 
@@ -67,12 +44,10 @@ struct Drawn {
 };
 
 /// By names; without, every kind for whose rows there are any. Throws as chart_kind().
-std::vector<const ChartKind*> wanted_kinds(const Rows& rows, std::span<const std::string> names);
+std::vector<const ChartKind*> wanted_kinds(const results::Rows& rows, std::span<const std::string> names);
 
 /// Draws the wanted kinds into `folder`, made when missing; existing files are replaced.
-std::vector<Drawn> write_charts(const std::filesystem::path& folder, const Rows& rows,
-                                std::span<const std::string> kinds, const ChartOptions& options);
-std::vector<Drawn> write_charts(const std::filesystem::path& folder, std::span<const results::Row> rows,
+std::vector<Drawn> write_charts(const std::filesystem::path& folder, const results::Rows& rows,
                                 std::span<const std::string> kinds, const ChartOptions& options);
 
 }  // namespace regather::charts

@@ -7,38 +7,20 @@
 #include <iterator>
 
 #include "charts/gnuplot.h"
-#include "charts/plot.h"
+#include "charts/lettering.h"
 
 namespace regather::charts {
 namespace {
 
 // All in SVG pixels.
-constexpr double width = 440, right = 424, edge = 10, title_at = 22, caption_at = 42, caption_line = 15;
-constexpr double above = 18, remark_line = 16, between = 22, axis_room = 58, legend_line = 18, sample = 30,
-                 gap_to_text = 11;
-constexpr double small_letter = 6.3, tiny_letter = 5.9;
+constexpr double edge = 10, title_size = 15, small_size = 11, legend_size = 12, label_size = 13;
+constexpr double title_at = 22, caption_at = 42, small_line = 15, label_line = 16;
+constexpr double above = 18, between = 22, across_room = 42, tick_room = 14, sample = 30;
+constexpr double gap_to_text = 11, gap_of_keys = 12, legend_line = 18, remark_lift = 16;
+constexpr double row_gap = 34, bare_gap = 10, bar_room = 100, bar_width = 16;
 constexpr const char* dashes[] = {"solid", "(6,3)", "(2,3)", "(10,3,2,3)"};
-
-std::size_t letters(std::string_view utf8) {
-    return static_cast<std::size_t>(std::count_if(
-        utf8.begin(), utf8.end(), [](char c) { return (static_cast<unsigned char>(c) >> 6) != 2; }));
-}
-
-/// Cut at " · " into lines of at most `most` letters, where that is possible.
-std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
-    constexpr std::string_view dot = " · ";
-    std::vector<std::string> out;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = std::min(text.find(dot, at), text.size());
-        const std::string part = text.substr(at, end - at);
-        if (!out.empty() && letters(out.back()) + letters(dot) + letters(part) <= most)
-            out.back() += std::string(dot) + part;
-        else
-            out.push_back(part);
-        at = end + dot.size();
-    }
-    return out;
-}
+constexpr const char* level_dashes[] = {"(10,5)", "(4,4)", "(2,4)", "(12,4,2,4)"};
+constexpr const char* grey = "tc rgb '#505050'";
 
 /// What the legend shows: a line's look or a box's colour.
 struct Key {
@@ -54,20 +36,39 @@ std::vector<Key> keys_of(const Figure& figure) {
             std::any_of(keys.begin(), keys.end(), [&](const Key& k) { return k.label == key.label; });
         if (!key.label.empty() && !known) keys.push_back(std::move(key));
     };
-    for (const Plate& plate : figure.plates) {
-        for (const Box& box : plate.boxes) add({box.label, nullptr, box.colour});
-        for (const Line& line : plate.lines) add({line.label, &line});
+    for (const Panel& panel : figure.panels) {
+        for (const Box& box : panel.boxes) add({box.label, nullptr, box.colour});
+        for (const Line& line : panel.lines) add({line.label, &line});
     }
     return keys;
 }
 
-std::string look(const Line& line) {
+bool is_level(const Line& line) {
+    return line.form == Line::Form::level || line.form == Line::Form::rule;
+}
+
+/// `under`: how many lines with the same points are drawn over this one; it is wider by that, so that each
+/// shows.
+std::string look(const Line& line, int under = 0) {
+    const double wider = is_level(line) ? 0 : std::min(under, 4);
     const auto variant = static_cast<std::size_t>(line.variant) % std::size(dashes);
     const std::string stroke =
-        fmt::format("lc rgb '{}' lw {:.2f} dt {}", line.colour, line.width, dashes[variant]);
-    return line.form == Line::Form::plain
-               ? "with lines " + stroke
-               : fmt::format("with linespoints {} pt {} ps 0.8 pi {}", stroke, line.marker, line.every);
+        fmt::format("lc rgb '{}' lw {:.2f} dt {}", line.colour, line.width + 1.3 * wider,
+                    line.form == Line::Form::level ? level_dashes[variant] : dashes[variant]);
+    switch (line.form) {
+        case Line::Form::plain:
+        case Line::Form::rule:
+            return "with lines " + stroke;
+        case Line::Form::points:
+            return fmt::format("with points lc rgb '{}' pt {} ps {:.2f}", line.colour, line.marker,
+                               line.width / 2);
+        case Line::Form::level:
+        case Line::Form::joined:
+        case Line::Form::steps:
+            break;
+    }
+    return fmt::format("with linespoints {} pt {} ps {:.2f} pi {}", stroke, line.marker, 0.8 + 0.28 * wider,
+                       line.every);
 }
 
 std::string key_look(Line line) {
@@ -75,34 +76,38 @@ std::string key_look(Line line) {
     return look(line);
 }
 
+/// A panel's place on the canvas.
+struct Place {
+    double left, right, top, bottom;
+};
+
 class Drawing {
 public:
-    Drawing(Chart& chart, const Figure& figure)
-        : chart_(chart),
-          figure_(figure),
-          caption_(wrapped(chart.caption, static_cast<std::size_t>((width - 2 * edge) / tiny_letter))),
-          keys_(keys_of(figure)) {}
+    explicit Drawing(const Figure& figure) : figure_(figure), keys_(keys_of(figure)) {
+        chart_.title = figure.title;
+        chart_.caption = figure.caption;
+        caption_ = wrapped(figure.caption, small_size, figure.width - 2 * edge);
+        lay_out();
+    }
 
-    void compose() {
-        size_canvas();
+    Chart draw() {
         say("set encoding utf8\nset multiplot\nset border 3 lc rgb '#404040'\n"
             "set tics nomirror out scale 0.6\nset grid xtics ytics lt 1 lc rgb '#e4e4e4' lw 0.6\nunset key\n"
-            "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n",
-            x_at(left()), x_at(right));
-        label(chart_.title, edge, title_at, "left font ',15'");
+            "set datafile missing '-'\nunset colorbox\n");
+        label(chart_.title, edge, title_at, fmt::format("left font ',{}'", title_size));
         for (std::size_t i = 0; i < caption_.size(); ++i)
-            label(caption_[i], edge, caption_at + caption_line * static_cast<double>(i),
-                  "left font ',11' tc rgb '#505050'");
-        scale('x', figure_.horizontal);
-        double plate_top = top();
-        for (std::size_t p = 0; p < figure_.plates.size(); ++p) {
-            const Plate& plate = figure_.plates[p];
-            plate_top += plate.remark.empty() ? 0 : remark_line;
-            draw(plate, p, plate_top);
-            plate_top += plate.height + between;
+            label(caption_[i], edge, caption_at + small_line * static_cast<double>(i),
+                  fmt::format("left font ',{}' {}", small_size, grey));
+        if (figure_.colours) {
+            const Scale& colours = *figure_.colours;
+            say("set logscale cb\nset cbrange [{:.10g}:{:.10g}]\nset palette defined (0 '#2c105c', 1 "
+                "'#711f81', 2 '#b63679', 3 '#ee605e', 4 '#fdae78', 5 '#fcfdbf')\n",
+                colours.low, colours.high);
         }
-        legend(plate_top - between + axis_room);
+        for (std::size_t p = 0; p < figure_.panels.size(); ++p) draw(figure_.panels[p], p);
+        legend();
         say("unset multiplot\n");
+        return std::move(chart_);
     }
 
 private:
@@ -116,131 +121,272 @@ private:
     }
     double x_at(double pixels) const { return pixels / chart_.width; }
     double y_at(double pixels) const { return 1 - pixels / chart_.height; }
-    double left() const { return figure_.margin; }
-    double top() const {
-        return caption_at + caption_line * static_cast<double>(caption_.size()) - 8 + above;
+    const Axis& across(const Panel& panel) const { return panel.across ? *panel.across : figure_.across; }
+    /// Lines of the vertical axis's label, which is as long as the panel and the gap to the next one allow.
+    static std::vector<std::string> up_label(const Panel& panel) {
+        return wrapped(panel.up.label, label_size, panel.height + (panel.bare ? 0 : between / 2));
+    }
+    static std::vector<std::string> remark(const Panel& panel, double width) {
+        return wrapped(panel.remark, small_size, width);
+    }
+    bool begins_row(std::size_t p) const { return !figure_.panels[p].beside; }
+    bool ends_row(std::size_t p) const { return p + 1 == figure_.panels.size() || begins_row(p + 1); }
+    /// Whether a panel shows the labels of its horizontal axis: the last one of those that share it.
+    bool has_across(std::size_t p) const {
+        const Panel& panel = figure_.panels[p];
+        if (panel.raster) return false;
+        return panel.across || p + 1 == figure_.panels.size();
     }
 
-    void size_canvas() {
+    /// Room left of the panels: for tick labels and for what the axes are.
+    double margin() const {
+        double room = 0;
+        for (std::size_t p = 0; p < figure_.panels.size(); ++p) {
+            const Panel& panel = figure_.panels[p];
+            if (!begins_row(p)) continue;
+            if (panel.bare) {
+                if (!panel.up.label.empty())
+                    room = std::max(room, text_width(panel.up.label, label_size) + 8);
+                continue;
+            }
+            double widest = 0;
+            for (const auto& [value, text] : panel.up.scale.ticks)
+                widest = std::max(widest, text_width(text, panel.tick_size));
+            room =
+                std::max(room, widest + tick_room + label_line * static_cast<double>(up_label(panel).size()));
+        }
+        return edge + room;
+    }
+
+    void lay_out() {
+        const double left = margin(), right = figure_.width - (figure_.colours ? bar_room : 16);
+        double y = caption_at + small_line * static_cast<double>(std::max<std::size_t>(caption_.size(), 1)) -
+                   8 + above;
+        for (std::size_t p = 0; p < figure_.panels.size();) {
+            std::size_t end = p + 1;
+            double shares = figure_.panels[p].share + figure_.panels[p].room_beside,
+                   height = figure_.panels[p].height;
+            for (; end < figure_.panels.size() && !begins_row(end); ++end) {
+                shares += figure_.panels[end].share + figure_.panels[end].room_beside;
+                height = std::max(height, figure_.panels[end].height);
+            }
+            const double gap = figure_.panels[p].raster ? bare_gap : row_gap;
+            const double gaps = static_cast<double>(end - p - 1) + figure_.panels[end - 1].room_beside;
+            const double width = right - left - gap * gaps;
+            double x = left, lift = 0;
+            for (std::size_t i = p; i < end; ++i) {
+                const double own = width * figure_.panels[i].share / shares;
+                places_.push_back({x, x + own, 0, 0});
+                const std::size_t lines = remark(figure_.panels[i], own).size();
+                if (lines > 0) lift = std::max(lift, small_line * static_cast<double>(lines) + 6);
+                x += own + gap;
+            }
+            bool labelled = false;
+            for (std::size_t i = p; i < end; ++i) {
+                places_[i].top = y + lift;
+                places_[i].bottom = y + lift + height;
+                labelled |= has_across(i);
+            }
+            y += lift + height +
+                 (labelled                   ? across_room + small_line
+                  : figure_.panels[p].raster ? 8
+                                             : between);
+            p = end;
+        }
+        legend_top_ = y;
         double longest = 0;
-        for (const Key& key : keys_) longest = std::max(longest, static_cast<double>(letters(key.label)));
-        key_width_ = sample + gap_to_text + longest * small_letter + 10;
-        columns_ = static_cast<std::size_t>(std::clamp((width - 2 * edge) / key_width_, 1.0, 3.0));
+        for (const Key& key : keys_) longest = std::max(longest, text_width(key.label, legend_size));
+        const double room = figure_.width - 2 * edge;
+        columns_ = static_cast<std::size_t>(
+            std::clamp(room / (sample + gap_to_text + longest + gap_of_keys), 1.0, 4.0));
         columns_ = std::max<std::size_t>(1, std::min(columns_, keys_.size()));
-        key_width_ = (width - 2 * edge) / static_cast<double>(columns_);
-        lines_ = (keys_.size() + columns_ - 1) / columns_;
-        double height = top() + axis_room + legend_line * static_cast<double>(lines_) + 6;
-        for (const Plate& plate : figure_.plates)
-            height += plate.height + (plate.remark.empty() ? 0 : remark_line);
-        height += between * static_cast<double>(figure_.plates.size() - 1);
-        chart_.width = static_cast<unsigned>(width);
-        chart_.height = static_cast<unsigned>(std::ceil(height));
+        key_width_ = room / static_cast<double>(columns_);
+        key_lines_ = (keys_.size() + columns_ - 1) / columns_;
+        chart_.width = static_cast<unsigned>(std::ceil(figure_.width));
+        chart_.height =
+            static_cast<unsigned>(std::ceil(y + legend_line * static_cast<double>(key_lines_) + 6));
     }
 
     void scale(char axis, const Scale& scale) {
         say("{}set logscale {}\nset {}range [{:.10g}:{:.10g}]\n", scale.log ? "" : "un", axis, axis,
             scale.low, scale.high);
     }
-    void ticks(char axis, const Scale& scale, bool labelled) {
-        say("set {}tics nomirror out scale 0.6 (", axis);
+    void ticks(char axis, const Scale& scale, const std::vector<bool>& labelled, double size) {
+        say("set {}tics nomirror out scale 0.6 noenhanced font ',{}' (", axis, size);
         for (std::size_t i = 0; i < scale.ticks.size(); ++i)
-            say("{}{} {:.10g}", i == 0 ? "" : ", ", gnuplot_string(labelled ? scale.ticks[i].second : ""),
+            say("{}{} {:.10g}", i == 0 ? "" : ", ", gnuplot_string(labelled[i] ? scale.ticks[i].second : ""),
                 scale.ticks[i].first);
         say(")\n");
     }
-    /// How many pixels a span of the horizontal axis takes.
-    double pixels(double from, double to) const {
-        const Scale& x = figure_.horizontal;
-        const double share =
-            x.log ? std::log(to / from) / std::log(x.high / x.low) : (to - from) / (x.high - x.low);
-        return share * (right - left());
+    /// From the last one on, those whose labels do not touch.
+    static std::vector<bool> apart_across(const Scale& scale, double pixels) {
+        std::vector<bool> out(scale.ticks.size());
+        double taken = std::numeric_limits<double>::infinity();
+        for (std::size_t i = scale.ticks.size(); i-- > 0;) {
+            const double middle = scale.share(scale.ticks[i].first) * pixels;
+            const double half = text_width(scale.ticks[i].second, label_size) / 2 + 2;
+            if (middle + half > taken) continue;
+            out[i] = true;
+            taken = middle - half;
+        }
+        return out;
     }
 
-    void draw(const Plate& plate, std::size_t p, double plate_top) {
-        const bool is_last = p + 1 == figure_.plates.size();
-        say("set tmargin at screen {:.5f}\nset bmargin at screen {:.5f}\n", y_at(plate_top),
-            y_at(plate_top + plate.height));
-        scale('y', plate.vertical);
-        if (plate.bare) {
+    void draw(const Panel& panel, std::size_t p) {
+        const Place& place = places_[p];
+        const double middle = (place.top + place.bottom) / 2, width = place.right - place.left;
+        say("set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\nset tmargin at screen {:.5f}\nset "
+            "bmargin at screen {:.5f}\n",
+            x_at(place.left), x_at(place.right), y_at(place.top), y_at(place.bottom));
+        const Axis& horizontal = across(panel);
+        if (panel.raster) {
+            draw(*panel.raster, panel, place);
+            return;
+        }
+        scale('x', horizontal.scale);
+        scale('y', panel.up.scale);
+        std::vector<bool> all(panel.up.scale.ticks.size(), begins_row(p));
+        std::vector<bool> labelled = apart_across(horizontal.scale, width);
+        if (!has_across(p)) labelled.assign(labelled.size(), false);
+        if (panel.bare) {
             say("unset border\nunset grid\nunset xtics\nunset ytics\n");
-            if (is_last) ticks('x', figure_.horizontal, true);
-            label(plate.label, left() - 8, plate_top + plate.height / 2, "right");
+            if (has_across(p)) ticks('x', horizontal.scale, labelled, label_size);
+            label(panel.up.label, place.left - 8, middle, "right");
         } else {
             say("set border 3 lc rgb '#404040'\nset grid xtics ytics lt 1 lc rgb '#e4e4e4' lw 0.6\n");
-            ticks('x', figure_.horizontal, is_last);
-            ticks('y', plate.vertical, true);
-            label(plate.label, 12, plate_top + plate.height / 2, "center rotate by 90");
+            ticks('x', horizontal.scale, labelled, label_size);
+            ticks('y', panel.up.scale, all, panel.tick_size);
+            const auto lines = up_label(panel);
+            for (std::size_t i = 0; i < lines.size(); ++i)
+                label(lines[i], edge + 4 + label_line * static_cast<double>(i), middle,
+                      "center rotate by 90");
         }
-        if (!plate.remark.empty())
-            label(plate.remark, edge, plate_top - 10, "left font ',11' tc rgb '#505050'");
-        if (is_last) label(figure_.label, (left() + right) / 2, plate_top + plate.height + 43, "center");
-        for (const Note& note : plate.notes)
-            say("set label {} at {:.10g},{:.10g} {} noenhanced font ',11'\n", gnuplot_string(note.text),
-                note.x, note.y, note.at_right ? "right" : "left");
-        data(plate, p);
+        remark(panel, place);
+        if (has_across(p))
+            label(horizontal.label, (place.left + place.right) / 2, place.bottom + across_room, "center");
+        for (const Note& note : panel.notes)
+            say("set label {} at {:.10g},{:.10g} {} noenhanced font ',{}'\n", gnuplot_string(note.text),
+                note.x, note.y, note.at_right ? "right" : "left", small_size);
+        data(panel, p, width);
         say("unset label\n");
     }
 
-    void data(const Plate& plate, std::size_t p) {
+    /// Above the panel, clear of the uppermost tick's label.
+    void remark(const Panel& panel, const Place& place) {
+        const auto lines = remark(panel, place.right - place.left);
+        for (std::size_t i = 0; i < lines.size(); ++i)
+            label(lines[i], place.left,
+                  place.top - remark_lift +
+                      small_line * (static_cast<double>(i) + 1 - static_cast<double>(lines.size())),
+                  fmt::format("left font ',{}' {}", small_size, grey));
+    }
+
+    void draw(const Raster& raster, const Panel& panel, const Place& place) {
+        say("unset logscale x\nunset logscale y\nset xrange [-0.5:{}.5]\nset yrange [{}.5:-0.5]\nset border "
+            "15 "
+            "lw 0.5\nunset xtics\nunset ytics\nunset grid\n",
+            raster.width - 1, raster.height - 1);
+        remark(panel, place);
+        const bool is_last = &panel == &figure_.panels.back();
+        if (is_last && figure_.colours) {
+            const double top = places_.front().top, bottom = place.bottom;
+            say("set colorbox user origin screen {:.5f},{:.5f} size screen {:.5f},{:.5f}\nset cbtics (",
+                x_at(figure_.width - bar_room + 14), y_at(bottom), bar_width / chart_.width,
+                (bottom - top) / chart_.height);
+            for (std::size_t i = 0; i < figure_.colours->ticks.size(); ++i)
+                say("{}{} {:.10g}", i == 0 ? "" : ", ", gnuplot_string(figure_.colours->ticks[i].second),
+                    figure_.colours->ticks[i].first);
+            say(")\n");
+        }
+        say("plot '-' matrix with image pixels\n");
+        for (std::uint32_t y = 0; y < raster.height; ++y) {
+            for (std::uint32_t x = 0; x < raster.width; ++x) {
+                const std::uint64_t value = raster.values[std::size_t{y} * raster.width + x];
+                if (value == 0) {
+                    chart_.commands += "- ";
+                } else {
+                    say("{} ", value);
+                }
+            }
+            chart_.commands += '\n';
+        }
+        say("e\nunset label\n");
+    }
+
+    void data(const Panel& panel, std::size_t p, double width) {
         std::string plots;
         const auto add = [&](const std::string& plot) {
             plots += (plots.empty() ? "" : ", \\\n    ") + plot;
         };
-        for (std::size_t b = 0; b < plate.boxes.size(); ++b) {
-            const Box& box = plate.boxes[b];
+        const Scale& horizontal = across(panel).scale;
+        for (std::size_t b = 0; b < panel.boxes.size(); ++b) {
+            const Box& box = panel.boxes[b];
             say("# {}\n$box_{}_{} << EOD\n{:.10g} {:.10g} {:.10g} {:.10g}\nEOD\n", gnuplot_string(box.label),
                 p, b, box.left, box.right, box.bottom, box.top);
             add(fmt::format("$box_{}_{} using 1:3:1:2:3:4 with boxxyerror fs solid 1 noborder lc rgb '{}'", p,
                             b, box.colour));
-            if (box.text.empty() ||
-                pixels(box.left, box.right) < small_letter * static_cast<double>(letters(box.text)) + 4)
-                continue;
-            const double middle =
-                figure_.horizontal.log ? std::sqrt(box.left * box.right) : (box.left + box.right) / 2;
-            say("set label {} at {:.10g},{:.10g} center noenhanced font ',11' tc rgb '{}' front\n",
-                gnuplot_string(box.text), middle, (box.bottom + box.top) / 2, box.text_colour);
+            const double from = horizontal.share(box.left), to = horizontal.share(box.right);
+            if (box.text.empty() || (to - from) * width < text_width(box.text, small_size) + 4) continue;
+            say("set label {} at {:.10g},{:.10g} center noenhanced font ',{}' tc rgb '{}' front\n",
+                gnuplot_string(box.text), horizontal.at((from + to) / 2), (box.bottom + box.top) / 2,
+                small_size, box.text_colour);
         }
-        for (std::size_t l = 0; l < plate.lines.size(); ++l) {
-            Line line = plate.lines[l];
+        for (std::size_t l = 0; l < panel.lines.size(); ++l) {
+            const Line& line = panel.lines[l];
             if (line.points.empty()) continue;
-            // Curves that coincide: each is wider than the one drawn over it, so that each shows.
-            for (std::size_t over = l + 1; over < plate.lines.size(); ++over)
-                line.width += plate.lines[over].points == line.points ? 1.4 : 0;
-            const std::string name = fmt::format("$line_{}_{}", p, l);
-            say("# {}\n{} << EOD\n", gnuplot_string(line.label), name);
-            for (const Point& point : line.points) {
-                if (std::isnan(point.x))
-                    say("\n");
-                else
-                    say("{:.10g} {:.10g}\n", point.x, point.y);
-                if (!point.label.empty())
-                    labels_ += fmt::format(
-                        "set label {} at {:.10g},{:.10g} noenhanced font ',10' tc rgb '{}' left offset "
-                        "0.5,0.45\n",
-                        gnuplot_string(point.label), point.x, point.y, line.colour);
+            const auto same = [&](const Line& other) {
+                return is_level(other) == is_level(line) && other.points == line.points;
+            };
+            const auto at = panel.lines.begin() + static_cast<std::ptrdiff_t>(l);
+            const auto under = static_cast<int>(std::count_if(at + 1, panel.lines.end(), same));
+            const auto over = static_cast<double>(std::count_if(panel.lines.begin(), at, same));
+            std::vector<Point> points = line.points;
+            if (is_level(line)) {
+                // Level lines of the same height: each is a marker shorter than the one it lies on, so that
+                // each shows.
+                const double inset = line.form == Line::Form::level ? 0.028 * std::min(over, 8.0) : 0;
+                points.push_back(points.front());
+                points.front().x = horizontal.at(inset);
+                points.back().x = horizontal.at(1 - inset);
             }
-            say("EOD\n");
-            bars(line, fmt::format("$bars_{}_{}", p, l), add);
-            if (line.form == Line::Form::steps) {
-                add(fmt::format("{} using 1:2 with steps lc rgb '{}' lw {:.2f}", name, line.colour,
-                                line.width));
-                // The last point only carries the last step to the edge.
-                add(fmt::format("{} every ::0::{} using 1:2 with points lc rgb '{}' pt {} ps 0.7", name,
-                                line.points.size() - 2, line.colour, line.marker));
-            } else {
-                add(fmt::format("{} using 1:2 {}", name, look(line)));
-            }
+            draw(line, points, under, fmt::format("{}_{}", p, l), add);
         }
-        say("{}plot {}\n", labels_, plots.empty() ? "NaN" : plots);
+        say("{}plot {}\n", labels_, plots.empty() ? "NaN notitle" : plots);
         labels_.clear();
     }
 
     template <class Add>
-    void bars(const Line& line, const std::string& name, const Add& add) {
+    void draw(const Line& line, const std::vector<Point>& points, int under, const std::string& number,
+              const Add& add) {
+        const std::string name = "$line_" + number;
+        say("# {}\n{} << EOD\n", gnuplot_string(line.label), name);
+        for (const Point& point : points) {
+            if (std::isnan(point.x))
+                say("\n");
+            else
+                say("{:.10g} {:.10g}\n", point.x, point.y);
+            if (!point.label.empty())
+                labels_ += fmt::format(
+                    "set label {} at {:.10g},{:.10g} noenhanced font ',10' tc rgb '{}' left offset "
+                    "0.5,0.45\n",
+                    gnuplot_string(point.label), point.x, point.y, line.colour);
+        }
+        say("EOD\n");
+        bars(line, points, "$bars_" + number, add);
+        if (line.form != Line::Form::steps)
+            return add(fmt::format("{} using 1:2 {}", name, look(line, under)));
+        add(fmt::format("{} using 1:2 with steps lc rgb '{}' lw {:.2f}", name, line.colour, line.width));
+        // The last point only carries the last step to the edge.
+        add(fmt::format("{} every ::0::{} using 1:2 with points lc rgb '{}' pt {} ps 0.7", name,
+                        points.size() - 2, line.colour, line.marker));
+    }
+
+    template <class Add>
+    void bars(const Line& line, const std::vector<Point>& points, const std::string& name, const Add& add) {
         const auto has_bar = [](const Point& point) { return !std::isnan(point.low); };
-        if (std::none_of(line.points.begin(), line.points.end(), has_bar)) return;
+        if (std::none_of(points.begin(), points.end(), has_bar)) return;
         say("{} << EOD\n", name);
-        for (const Point& point : line.points)
+        for (const Point& point : points)
             if (has_bar(point))
                 say("{:.10g} {:.10g} {:.10g} {:.10g}\n", point.x, point.y, point.low, point.high);
         say("EOD\n");
@@ -250,97 +396,50 @@ private:
 
     /// A plot of its own over the whole canvas in pixels, as gnuplot drops entries that do not fit beside
     /// their plot.
-    void legend(double legend_top) {
+    void legend() {
         if (keys_.empty()) return;
         say("unset border\nunset tics\nunset grid\nunset logscale\n"
             "set lmargin at screen 0\nset rmargin at screen 1\nset tmargin at screen 1\nset bmargin at "
-            "screen 0\n"
-            "set xrange [0:{}]\nset yrange [{}:0]\n",
+            "screen 0\nset xrange [0:{}]\nset yrange [{}:0]\n",
             chart_.width, chart_.height);
         std::string plots;
         for (std::size_t k = 0; k < keys_.size(); ++k) {
-            const double x = edge + key_width_ * static_cast<double>(k / lines_);
-            const double y = legend_top + legend_line * (static_cast<double>(k % lines_) + 0.5);
-            label(keys_[k].label, x + sample + gap_to_text, y, "left font ',12'");
+            const double x = edge + key_width_ * static_cast<double>(k / key_lines_);
+            const double y = legend_top_ + legend_line * (static_cast<double>(k % key_lines_) + 0.5);
+            label(fitting(keys_[k].label, legend_size, key_width_ - sample - gap_to_text),
+                  x + sample + gap_to_text, y, fmt::format("left font ',{}'", legend_size));
+            const char* separator = plots.empty() ? "" : ", \\\n    ";
             if (keys_[k].line != nullptr) {
-                say("$key_{} << EOD\n{:.2f} {:.2f}\n{:.2f} {:.2f}\n{:.2f} {:.2f}\nEOD\n", k, x, y,
-                    x + sample / 2, y, x + sample, y);
-                plots += fmt::format("{}$key_{} using 1:2 {}", plots.empty() ? "" : ", \\\n    ", k,
-                                     key_look(*keys_[k].line));
+                const bool alone = keys_[k].line->form == Line::Form::points;
+                say("$key_{} << EOD\n", k);
+                for (const double share : {0.0, 0.5, 1.0})
+                    if (!alone || share == 0.5) say("{:.2f} {:.2f}\n", x + sample * share, y);
+                say("EOD\n");
+                plots += fmt::format("{}$key_{} using 1:2 {}", separator, k, key_look(*keys_[k].line));
             } else {
                 say("$key_{} << EOD\n{:.2f} {:.2f} {:.2f} {:.2f}\nEOD\n", k, x + 8, x + sample, y - 6, y + 6);
                 plots +=
                     fmt::format("{}$key_{} using 1:3:1:2:3:4 with boxxyerror fs solid 1 noborder lc rgb '{}'",
-                                plots.empty() ? "" : ", \\\n    ", k, keys_[k].colour);
+                                separator, k, keys_[k].colour);
             }
         }
         say("plot {}\n", plots);
     }
 
-    Chart& chart_;
     const Figure& figure_;
+    Chart chart_;
     std::vector<std::string> caption_;
     std::vector<Key> keys_;
+    std::vector<Place> places_;
     std::string labels_;
-    double key_width_ = 0;
-    std::size_t columns_ = 1, lines_ = 0;
+    double key_width_ = 0, legend_top_ = 0;
+    std::size_t columns_ = 1, key_lines_ = 0;
 };
 
 }  // namespace
 
-void compose(Chart& chart, const Figure& figure) {
-    Drawing(chart, figure).compose();
-}
-
-Line line_of(const Curve& curve) {
-    Line line;
-    line.label = curve.label;
-    line.colour = curve.colour;
-    line.marker = curve.marker;
-    line.variant = curve.variant;
-    return line;
-}
-
-Scale log_scale(std::span<const double> values, std::string (*label)(double)) {
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    Scale out{true, *least / 1.35, *most * 1.35, {}};
-    for (const double tick : log_ticks(out.low, out.high))
-        if (tick >= out.low && tick <= out.high) out.ticks.emplace_back(tick, label(tick));
-    while (out.ticks.size() > 8) {  // every second one, keeping the last
-        std::vector<std::pair<double, std::string>> fewer;
-        for (std::size_t i = (out.ticks.size() - 1) % 2; i < out.ticks.size(); i += 2)
-            fewer.push_back(out.ticks[i]);
-        out.ticks = fewer;
-    }
-    return out;
-}
-
-Scale linear_scale(double high, std::string (*label)(double)) {
-    const double decade = std::pow(10.0, std::floor(std::log10(high)));
-    double step = decade;
-    for (const double factor : {0.2, 0.5, 1.0, 2.0})
-        if (high / (factor * decade) <= 5) {
-            step = factor * decade;
-            break;
-        }
-    const double steps = std::ceil(high / step - 1e-9);
-    Scale out{false, 0, steps * step, {}};
-    for (double i = 0; i <= steps; ++i) out.ticks.emplace_back(i * step, label(i * step));
-    return out;
-}
-
-std::string plain_number(double value) {
-    return fmt::format("{:.10g}", value);
-}
-
-std::string byte_number(double bytes) {
-    int step = 0;
-    constexpr const char* units[] = {"B", "kB", "MB", "GB", "TB", "PB", "EB"};
-    while (bytes >= 1000 * (1 - 1e-9) && step < 6) {
-        bytes /= 1000;
-        ++step;
-    }
-    return fmt::format("{:.4g} {}", bytes, units[step]);
+Chart draw(const Figure& figure) {
+    return Drawing(figure).draw();
 }
 
 }  // namespace regather::charts

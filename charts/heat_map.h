@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "charts/figure.h"
+
 namespace regather::charts {
 
 struct HeatMap {
@@ -14,12 +16,12 @@ struct HeatMap {
     std::vector<std::uint64_t> bytes;  ///< By pixel in row order, first row at the top.
 };
 
-/// A gnuplot script for a PNG. `caption` stands under the title. Pixels that moved nothing are white. Every
-/// map has width x height values.
-std::string heat_map_script(std::span<const HeatMap> maps, std::uint32_t width, std::uint32_t height,
-                            const std::string& caption);
+/// `caption` stands under the title. Pixels that moved nothing are white. Every map has width x height
+/// values.
+Chart heat_map(std::span<const HeatMap> maps, std::uint32_t width, std::uint32_t height,
+               const std::string& caption);
 
-/// Drawn and written; an existing file is replaced. Throws std::runtime_error as run_gnuplot().
+/// Drawn as PNG and written; an existing file is replaced. Throws std::runtime_error as render().
 void write_heat_map(const std::filesystem::path& png, std::span<const HeatMap> maps, std::uint32_t width,
                     std::uint32_t height, const std::string& caption);
 

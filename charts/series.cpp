@@ -52,20 +52,20 @@ struct Group {
     std::vector<std::vector<const results::Row*>> frames = {};
 };
 
-bool fits(const results::Row& row, Axis axis, const results::Geometry& cache) {
+bool fits(const results::Row& row, Along along, const results::Geometry& cache) {
     const auto geometry = results::geometry_of(row);
-    if (!geometry || !row.traffic_bytes || (axis == Axis::bins && !row.bins)) return false;
+    if (!geometry || !row.traffic_bytes || (along == Along::bins && !row.bins)) return false;
     if (row.tile == std::uint64_t{0} || row.bins == std::uint64_t{0}) return false;  // no place on a log axis
     results::Geometry wanted = cache;
-    if (axis == Axis::cache) wanted.cache_bytes = geometry->cache_bytes;
+    if (along == Along::cache) wanted.cache_bytes = geometry->cache_bytes;
     return *geometry == wanted;
 }
 
-std::vector<Group> groups_of(std::span<const results::Row> rows, Axis axis, const results::Geometry& cache,
+std::vector<Group> groups_of(std::span<const results::Row> rows, Along along, const results::Geometry& cache,
                              bool merge_frames) {
     std::vector<Group> groups;
     for (const results::Row& row : rows) {
-        if (!fits(row, axis, cache)) continue;
+        if (!fits(row, along, cache)) continue;
         const Traits traits = traits_of(row, merge_frames);
         const bool tiled = row.tile.has_value(), binned = row.bins.has_value();
         auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) {
@@ -93,9 +93,9 @@ void hold(std::vector<const results::Row*>& rows, results::Count results::Row::*
 }
 
 /// Sorted along the axis, one row a place; the rows of all frames beside it.
-void settle(Group& group, Axis axis, bool flat) {
+void settle(Group& group, Along along, bool flat) {
     auto& rows = group.rows;
-    const auto place = [&](const results::Row* row) { return flat ? 0 : axis_value(*row, axis); };
+    const auto place = [&](const results::Row* row) { return flat ? 0 : axis_value(*row, along); };
     std::stable_sort(rows.begin(), rows.end(), [&](auto a, auto b) {
         return place(a) != place(b) ? place(a) < place(b) : a->frame < b->frame;
     });
@@ -163,15 +163,15 @@ std::span<const Style> styles() {
     return known;
 }
 
-double axis_value(const results::Row& row, Axis axis) {
-    const results::Count& value = axis == Axis::tile   ? row.tile
-                                  : axis == Axis::bins ? row.bins
-                                                       : row.cache_bytes;
+double axis_value(const results::Row& row, Along along) {
+    const results::Count& value = along == Along::tile   ? row.tile
+                                  : along == Along::bins ? row.bins
+                                                         : row.cache_bytes;
     return static_cast<double>(*value);
 }
 
-std::vector<Curve> curves(std::span<const results::Row> rows, Axis axis, const Slice& slice) {
-    std::vector<Group> groups = groups_of(rows, axis, slice.cache, slice.merge_frames);
+std::vector<Curve> curves(std::span<const results::Row> rows, Along along, const Slice& slice) {
+    std::vector<Group> groups = groups_of(rows, along, slice.cache, slice.merge_frames);
     std::array<bool, trait_count> differs{};
     std::vector<std::string> strangers;
     for (const Group& group : groups) {
@@ -185,10 +185,10 @@ std::vector<Curve> curves(std::span<const results::Row> rows, Axis axis, const S
     }
     std::vector<Curve> out;
     for (Group& group : groups) {
-        if (group.tiled && axis != Axis::tile) hold(group.rows, &results::Row::tile, slice.tile);
-        if (group.binned && axis != Axis::bins) hold(group.rows, &results::Row::bins, slice.bins);
-        Curve curve = look_of(group, out, strangers, axis == Axis::tile && !group.tiled);
-        settle(group, axis, curve.flat);
+        if (group.tiled && along != Along::tile) hold(group.rows, &results::Row::tile, slice.tile);
+        if (group.binned && along != Along::bins) hold(group.rows, &results::Row::bins, slice.bins);
+        Curve curve = look_of(group, out, strangers, along == Along::tile && !group.tiled);
+        settle(group, along, curve.flat);
         curve.rows = group.rows;
         if (slice.merge_frames) curve.frames = group.frames;
 
@@ -196,9 +196,9 @@ std::vector<Curve> curves(std::span<const results::Row> rows, Axis axis, const S
         const auto can_tile = std::any_of(std::begin(known), std::end(known), [&](const Style& s) {
             return s.ordering == group.ordering && s.can_tile;
         });
-        if (group.tiled && axis != Axis::tile) curve.label += fmt::format(", {0}×{0} tiles", *row.tile);
+        if (group.tiled && along != Along::tile) curve.label += fmt::format(", {0}×{0} tiles", *row.tile);
         if (!group.tiled && can_tile) curve.label += ", whole image";
-        if (group.binned && axis != Axis::bins) name_bins(curve.label, *row.bins);
+        if (group.binned && along != Along::bins) name_bins(curve.label, *row.bins);
         const bool parameters_differ = std::any_of(groups.begin(), groups.end(), [&](const Group& other) {
             return other.ordering == group.ordering && other.tiled == group.tiled &&
                    other.binned == group.binned && other.traits.back() != group.traits.back();
@@ -210,6 +210,15 @@ std::vector<Curve> curves(std::span<const results::Row> rows, Axis axis, const S
         out.push_back(std::move(curve));
     }
     return out;
+}
+
+Line line_of(const Curve& curve) {
+    Line line;
+    line.label = curve.label;
+    line.colour = curve.colour;
+    line.marker = curve.marker;
+    line.variant = curve.variant;
+    return line;
 }
 
 }  // namespace regather::charts

@@ -8,12 +8,13 @@
 #include <string_view>
 #include <vector>
 
+#include "charts/figure.h"
 #include "results/geometry.h"
 #include "results/row.h"
 
 namespace regather::charts {
 
-enum class Axis { tile, bins, cache };
+enum class Along { tile, bins, cache };
 
 /// Where the parameters that are not the axis are held. An ordering that was not measured at `tile` or `bins`
 /// is shown at its nearest value (by ratio; of two equally near the smaller one).
@@ -43,12 +44,15 @@ struct Curve {
         frames;  ///< Where frames share a curve: for each of `rows` those of all frames there, by frame.
 };
 
-double axis_value(const results::Row& row, Axis axis);  ///< Of a row that has one.
+double axis_value(const results::Row& row, Along along);  ///< Of a row that has one.
 
 /// In the order of the rows' first appearance. Orderings that differ in a further column or parameter (frame,
 /// layout, "rows=alternating") are curves of their own, named by what differs. Along `bins`, orderings
 /// without bins are left out. Rows must outlive the curves. Throws trace::DataError when two rows contradict
 /// each other.
-std::vector<Curve> curves(std::span<const results::Row> rows, Axis axis, const Slice& slice);
+std::vector<Curve> curves(std::span<const results::Row> rows, Along along, const Slice& slice);
+
+/// A line in a curve's look, without points.
+Line line_of(const Curve& curve);
 
 }  // namespace regather::charts

@@ -72,7 +72,7 @@ Subjects<R> subjects(std::span<const R* const> rows, const ChartOptions& options
     }
     out.cache = options.cache.value_or(*common);
     std::erase_if(out.keys, [&](const results::Row& key) { return results::geometry_of(key) != out.cache; });
-    for (const Curve& curve : curves(out.keys, Axis::cache, {out.cache, options.tile, options.bins})) {
+    for (const Curve& curve : curves(out.keys, Along::cache, {out.cache, options.tile, options.bins})) {
         Subject<R>& subject = out.all.emplace_back(Subject<R>{curve, {}});
         for (const R* row : rows)
             if (same_subject(subject_of(*row), *curve.rows.front())) subject.rows.push_back(row);

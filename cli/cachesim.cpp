@@ -18,8 +18,12 @@
 #include "cli/commands.h"
 #include "cli/machine.h"
 #include "cli/progress.h"
+#include "cli/version.h"
+#include "results/cache_row.h"
+#include "results/csv.h"
+#include "results/provenance.h"
+#include "results/table.h"
 #include "trace/error.h"
-#include "trace/file.h"
 
 namespace regather::cli {
 
@@ -84,26 +88,41 @@ void check_effects(const Command& command, const Options& options) {
                 fmt::format("{}: found without --policy {}, expected both or none", name, policy));
 }
 
-constexpr std::string_view header =
-    "policy,size_bytes,line_bytes,ways,accesses,hits,misses,compulsory,capacity,conflict,writebacks,"
-    "writes_through,traffic_bytes\n";
+/// The columns of a cache's shape and policy.
+results::CacheRow row_of(const cachesim::PolicyConfig& config) {
+    results::CacheRow row;
+    row.policy = name_of(config.policy);
+    row.size_bytes = config.geometry.size_bytes;
+    row.line_bytes = config.geometry.line_bytes;
+    row.ways = config.geometry.ways == cachesim::fully_associative ? 0 : config.geometry.ways;
+    row.write = cachesim::write_policy_names[static_cast<std::size_t>(config.write)];
+    row.write_miss = cachesim::write_miss_names[static_cast<std::size_t>(config.write_miss)];
+    row.index = cachesim::set_index_names[static_cast<std::size_t>(config.index)];
+    if (config.policy == cachesim::Policy::random) row.seed = config.seed;
+    return row;
+}
 
-std::string table(std::span<const cachesim::PolicyRow> results) {
-    std::string rows(header);
-    for (const auto& [config, stats, classes] : results) {
-        const auto& [size_bytes, line_bytes, ways] = config.geometry;
-        rows += fmt::format(
-            "{},{},{},{},{},{},{},{},{},{},{}\n", name_of(config.policy), size_bytes, line_bytes,
-            cachesim::ways_text(ways), stats.accesses, stats.hits(), stats.misses,
-            classes ? fmt::format("{},{},{}", classes->compulsory, classes->capacity, classes->conflict)
-                    : ",,",
-            stats.writebacks, stats.passed_writes, stats.traffic_bytes(line_bytes));
+std::vector<results::CacheRow> rows_of(std::span<const cachesim::PolicyRow> simulated) {
+    std::vector<results::CacheRow> rows;
+    for (const auto& [config, stats, classes] : simulated) {
+        results::CacheRow& row = rows.emplace_back(row_of(config));
+        row.accesses = stats.accesses;
+        row.hits = stats.hits();
+        row.misses = stats.misses;
+        if (classes) {
+            row.compulsory = classes->compulsory;
+            row.capacity = classes->capacity;
+            row.conflict = classes->conflict;
+        }
+        row.writebacks = stats.writebacks;
+        row.writes_through = stats.passed_writes;
+        row.traffic_bytes = stats.traffic_bytes(config.geometry.line_bytes);
     }
     return rows;
 }
 
 /// Every LRU cache of the line sizes. What a trace with writes writes back is not told.
-std::string all_lru(const Options& options, const Console& console) {
+std::vector<results::CacheRow> all_lru(const Options& options, const Console& console) {
     std::vector<std::uint32_t> line_sizes;
     if (options.lines.empty()) throw trace::UsageError("--line: found none, expected one");
     for (const std::string_view line : cachesim::list_parts(options.lines))
@@ -128,16 +147,24 @@ std::string all_lru(const Options& options, const Console& console) {
         }
         for (const std::string& note : trace.notes()) progress.note(note);
     }
-    std::string text(header);
-    for (const cachesim::FamilyRow& row : sweep.rows()) {
-        const auto& [size_bytes, line_bytes, row_ways] = row.config;
-        text += fmt::format(
-            "lru,{},{},{},{},{},{},{},{}\n", size_bytes, line_bytes, cachesim::ways_text(row_ways),
-            row.accesses, row.accesses - row.misses, row.misses,
-            options.no_3c ? ",," : fmt::format("{},{},{}", row.compulsory, row.capacity, row.conflict),
-            writes ? ",," : fmt::format("0,0,{}", row.misses * line_bytes));
+    std::vector<results::CacheRow> rows;
+    for (const cachesim::FamilyRow& found : sweep.rows()) {
+        cachesim::PolicyConfig config;
+        config.geometry = found.config;
+        results::CacheRow& row = rows.emplace_back(row_of(config));
+        row.accesses = found.accesses;
+        row.hits = found.accesses - found.misses;
+        row.misses = found.misses;
+        if (!options.no_3c) {
+            row.compulsory = found.compulsory;
+            row.capacity = found.capacity;
+            row.conflict = found.conflict;
+        }
+        if (writes) continue;
+        row.writebacks = row.writes_through = 0;
+        row.traffic_bytes = found.misses * found.config.line_bytes;
     }
-    return text;
+    return rows;
 }
 
 std::vector<cachesim::PolicyRow> simulate(const Options& options,
@@ -157,6 +184,15 @@ std::vector<cachesim::PolicyRow> simulate(const Options& options,
     });
 }
 
+/// As CSV on stdout; or into the file, with a table on stdout.
+template <class R>
+void give(const std::vector<R>& rows, const Options& options, const Console& console) {
+    if (options.csv.empty()) return console.print("{}", results::to_csv<R>(rows));
+    results::write_csv<R>(options.csv, rows);
+    results::write_provenance(options.csv, provenance(console, {}));
+    console.print("{}rows: {}\n", results::text_of(results::table_of<R>(rows)), options.csv.string());
+}
+
 void run(const Options& options, const Console& console) {
     std::vector<cachesim::Machine> machines;
     std::vector<cachesim::PolicyConfig> configs;
@@ -164,21 +200,18 @@ void run(const Options& options, const Console& console) {
         machines = load_machines(options.machines);
     else if (!options.all_lru)
         configs = combinations(options, console);
-    if (!options.csv.empty() && !options.force && std::filesystem::exists(options.csv))
-        throw trace::UsageError(fmt::format("--csv {}: found a file, expected none (--force overwrites it)",
-                                            options.csv.string()));
-
-    std::string rows;
-    if (!machines.empty()) {
-        Progress progress(console);
-        rows = run_machines(machines, options.files, progress);
+    if (!options.csv.empty()) results::refuse_to_overwrite(options.csv, options.force);
+    if (machines.empty()) {
+        give(options.all_lru ? all_lru(options, console) : rows_of(simulate(options, configs, console)),
+             options, console);
     } else {
-        rows = options.all_lru ? all_lru(options, console) : table(simulate(options, configs, console));
+        std::vector<results::MachineRow> rows;
+        {
+            Progress progress(console);
+            rows = run_machines(machines, options.files, progress);
+        }
+        give(rows, options, console);
     }
-    if (options.csv.empty())
-        console.print("{}", rows);
-    else
-        trace::write_whole(options.csv, rows);
 }
 
 }  // namespace
@@ -210,7 +243,8 @@ void add_cachesim(Command& command) {
                  "leave compulsory, capacity and conflict empty: lru is several times faster");
     command.option("--opt-limit", options->opt_limit, {},
                    "most line accesses kept in memory for opt, 8 bytes each, for each line size");
-    command.option("--csv", options->csv, "write the table here; without it, to stdout");
+    command.option("--csv", options->csv,
+                   "write the rows here, and X.json beside X.csv; without it, to stdout");
     command.option("--sizes", options->files.sizes,
                    "bytes of each access: .npy of uint8, uint32 or uint64 (default: 1 each)");
     command.option("--writes", options->files.writes,

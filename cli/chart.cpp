@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "charts/accuracy.h"
 #include "charts/chart.h"
 #include "cli/command.h"
 #include "cli/commands.h"
-#include "results/csv.h"
+#include "results/accuracy.h"
+#include "results/rows.h"
 #include "trace/error.h"
-#include "trace/file.h"
+#include "trace/text.h"
 
 namespace regather::cli {
 namespace {
@@ -22,42 +22,6 @@ struct Request {
     std::string folder, cache;
     std::uint64_t tile = 16, bins = 16;
     bool force = false;
-};
-
-/// The rows of all files, each by the kind that its header tells.
-struct Tables {
-    std::vector<results::Row> measurements;
-    std::vector<results::DetailRow> details;
-    std::vector<results::TimelineRow> timeline;
-    std::vector<results::SamplingRow> sampling;
-    std::vector<results::ConvergenceRow> convergence;
-    std::vector<results::StabilityRow> stability;
-
-    void add(const std::string& file) {
-        const std::string text = trace::read_file(file);
-        switch (results::row_kind(text, file)) {
-            case results::RowKind::measurement:
-                return append(measurements, text, file);
-            case results::RowKind::detail:
-                return append(details, text, file);
-            case results::RowKind::timeline:
-                return append(timeline, text, file);
-            case results::RowKind::sampling:
-                return append(sampling, text, file);
-            case results::RowKind::convergence:
-                return append(convergence, text, file);
-            case results::RowKind::stability:
-                return append(stability, text, file);
-        }
-    }
-    charts::Rows rows() const { return {measurements, details, timeline, sampling, convergence, stability}; }
-
-private:
-    template <class R>
-    static void append(std::vector<R>& all, std::string_view text, std::string_view file) {
-        const auto more = results::from_csv<R>(text, file);
-        all.insert(all.end(), more.begin(), more.end());
-    }
 };
 
 void refuse_to_overwrite(const Request& request, std::span<const charts::ChartKind* const> kinds) {
@@ -76,9 +40,11 @@ void run(const Request& request, const Console& console) {
     if (!request.cache.empty()) options.cache = results::parse_geometry(request.cache);
     for (const std::string& kind : request.kinds) charts::chart_kind(kind);
 
-    Tables tables;
-    for (const std::string& file : request.csv) tables.add(file);
-    const charts::Rows rows = tables.rows();
+    results::Rows rows;
+    for (const std::string& file : request.csv)
+        for (const std::string& name : rows.add(results::read_csv_text(file), file))
+            fmt::print(console.err, "regather: {}: the column {} is not known, and not looked at\n", file,
+                       trace::in_quotes(name));
     const auto kinds = charts::wanted_kinds(rows, request.kinds);
     if (kinds.empty())
         throw trace::DataError(fmt::format("{}: no rows, expected at least one", request.csv[0]));
@@ -89,7 +55,7 @@ void run(const Request& request, const Console& console) {
         for (const auto& file : drawn.files) console.print("{}\n", file.string());
         any |= !drawn.files.empty();
         if (drawn.kind == "sampling-error" && !drawn.files.empty())
-            console.print("{}", charts::accuracy_table(rows.sampling));
+            console.print("{}", results::text_of(results::accuracy_table(rows.of<results::SamplingRow>())));
         if (drawn.skipped.empty()) continue;
         const std::string line = fmt::format("{}: not drawn: {}", drawn.kind, drawn.skipped);
         console.print("{}\n", line);

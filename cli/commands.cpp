@@ -21,6 +21,7 @@ constexpr Subcommand table[] = {
     {"converge", "measure error against run time over a ladder of settings", add_converge},
     {"stability", "measure errors in stiff and extreme cases against what is allowed", add_stability},
     {"run", "capture, reorder, replay and chart what an experiment file asks for", add_run},
+    {"results", "tell which rows a change of the renderer has outdated", add_results},
     {"info", "what a trace holds, or what a scene needs", add_info},
 };
 

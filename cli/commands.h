@@ -34,6 +34,7 @@ void add_chart(Command& command);
 void add_converge(Command& command);
 void add_stability(Command& command);
 void add_run(Command& command);
+void add_results(Command& command);
 void add_info(Command& command);
 
 }  // namespace regather::cli

@@ -5,12 +5,12 @@
 #include <memory>
 
 #include "charts/chart.h"
-#include "charts/convergence.h"
 #include "cli/command.h"
 #include "cli/commands.h"
 #include "cli/interruption.h"
 #include "cli/progress.h"
 #include "cli/version.h"
+#include "results/ladder.h"
 #include "results/provenance.h"
 #include "study/convergence_job.h"
 
@@ -29,9 +29,12 @@ study::Converged measure(const study::ConvergenceJob& job, const Console& consol
                 finished = so_far.rows.size();
                 results::write_provenance(
                     so_far.csv, provenance(console, ""),
-                    trace::Json::object({{"reference_samples", so_far.reference.samples},
-                                         {"reference_rmse", so_far.reference_rmse},
-                                         {"scene_checksum", so_far.reference.key.scene_checksum}}));
+                    trace::Json::object(
+                        {{"reference_samples", so_far.reference.samples},
+                         {"reference_rmse", so_far.reference_rmse},
+                         {"scene_checksum", so_far.reference.key.scene_checksum},
+                         {"renderer", trace::Json::object(
+                                          {{"scene", so_far.scene}, {"fingerprint", so_far.renderer}})}}));
             });
     } catch (const Interrupted& interrupted) {
         throw Interrupted(
@@ -49,12 +52,14 @@ void run(const study::ConvergenceJob& job, const Console& console) {
     console.print("reference: {} samples a pixel in {:.1f} s, own RMSE {:.3g} %; no error below it is told\n",
                   made.reference.samples, made.reference.seconds,
                   100 * made.reference_rmse / (made.mean_radiance > 0 ? made.mean_radiance : 1));
-    console.print("{}\n{}", charts::convergence_table(made.rows), charts::time_table(made.rows));
+    const results::Table times = results::time_table(made.rows);
+    console.print("{}{}", results::text_of(results::convergence_table(made.rows)),
+                  times.empty() ? "" : '\n' + results::text_of(times));
     if (made.known > 0) console.print("{} of {} settings were there already\n", made.known, made.rows.size());
     if (made.skipped > 0)
         console.print("{} of {} settings did not fit into the time; the same command goes on with them\n",
                       made.skipped, made.settings);
-    for (const auto& drawn : charts::write_charts(job.folder / "charts", {{}, {}, {}, {}, made.rows}, {}, {}))
+    for (const auto& drawn : charts::write_charts(job.folder / "charts", results::Rows(made.rows), {}, {}))
         console.print("{}\n", drawn.files.empty()
                                   ? fmt::format("{}: not drawn: {}", drawn.kind, drawn.skipped)
                                   : drawn.files.back().string());

@@ -80,7 +80,7 @@ void run(const Options& options, const Console& console) {
         console.print("{}{} | {} queries | {} | on chip {}\n{}", c == 0 ? "" : "\n", scene,
                       results::decimal_count(static_cast<double>(measurement.queries())),
                       cachesim::cache_text(caches[c]), options.onchip,
-                      experiment::detail_table(detail.lines[c]));
+                      results::text_of(experiment::detail_table(detail.lines[c])));
     console.print(
         "traffic = fetched and written back; overfetch = traffic / bytes used; 3C = compulsory / capacity / "
         "conflict misses\n");

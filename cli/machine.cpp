@@ -10,6 +10,7 @@
 #include "cachesim/cache_list.h"
 #include "cli/command.h"
 #include "cli/commands.h"
+#include "results/table.h"
 #include "trace/error.h"
 
 namespace regather::cli {
@@ -21,26 +22,6 @@ using cachesim::Hierarchy;
 using cachesim::LevelConfig;
 using cachesim::LevelStats;
 using cachesim::Machine;
-
-struct Column {
-    std::string_view name;
-    std::uint64_t LevelStats::*count;
-};
-constexpr Column level_columns[] = {{"accesses", &LevelStats::accesses},
-                                    {"hits", &LevelStats::hits},
-                                    {"misses", &LevelStats::misses},
-                                    {"sector_misses", &LevelStats::sector_misses},
-                                    {"victim_hits", &LevelStats::victim_hits},
-                                    {"writebacks", &LevelStats::writebacks},
-                                    {"clean_victims", &LevelStats::clean_victims},
-                                    {"writes_through", &LevelStats::passed_writes},
-                                    {"back_invalidations", &LevelStats::back_invalidations},
-                                    {"prefetches", &LevelStats::prefetches},
-                                    {"useful_prefetches", &LevelStats::useful_prefetches},
-                                    {"bytes_in", &LevelStats::bytes_in},
-                                    {"bytes_out", &LevelStats::bytes_out}};
-constexpr std::string_view dram_columns =
-    "bursts_read,bursts_written,row_hits,row_empty,row_conflicts,picojoules";
 
 bool took_part(const Hierarchy& hierarchy, trace::Region region) {
     if (hierarchy.dram() && hierarchy.dram()->stats(region) != DramStats{}) return true;
@@ -66,17 +47,17 @@ std::string_view word(const std::array<std::string_view, n>& names, Enum value) 
 }
 
 void print_all(const Console& console) {
-    std::size_t widest = 0;
-    for (const cachesim::EmbeddedMachine& row : cachesim::machine_catalogue())
-        widest = std::max(widest, row.name.size());
+    using results::Align;
+    results::Table all({{"name", Align::left}, {"levels", Align::left}, {"what", Align::left}});
     for (const cachesim::EmbeddedMachine& row : cachesim::machine_catalogue()) {
         const Machine machine = cachesim::load_machine(row.name);
         std::string levels;
         for (const LevelConfig& level : machine.levels)
             levels += fmt::format("{}{} {} {}", levels.empty() ? "" : ", ", level.name,
                                   bytes_in_words(level.cache.geometry.size_bytes), ways_in_words(level));
-        console.print("{:<{}}  {}\n{:<{}}  {}\n", row.name, widest, levels, "", widest, machine.summary);
+        all.add({std::string(row.name), levels, machine.summary});
     }
+    console.print("{}", results::text_of(all));
 }
 
 void print_line(const Console& console, std::string_view label, std::string_view value,
@@ -151,43 +132,51 @@ std::vector<Machine> load_machines(std::string_view list) {
     return machines;
 }
 
-std::string machine_header() {
-    std::string header = "machine,level,region";
-    for (const Column& column : level_columns) header += fmt::format(",{}", column.name);
-    return fmt::format("{},{}\n", header, dram_columns);
-}
-
-std::string machine_rows(const Machine& machine, const Hierarchy& hierarchy) {
-    constexpr auto dram_cells = std::count(dram_columns.begin(), dram_columns.end(), ',') + 1;
-    std::string rows;
-    const auto open_row = [&](std::string_view level, std::size_t region) {
-        rows += fmt::format("{},{},{}", machine.name, level, trace::region_names[region]);
-    };
-    for (std::size_t level = 0; level < hierarchy.levels(); ++level)
+std::vector<results::MachineRow> machine_rows(const Machine& machine, const Hierarchy& hierarchy) {
+    std::vector<results::MachineRow> rows;
+    const auto each_region = [&](std::string_view level, const auto& fill) {
         for (std::size_t r = 0; r < trace::region_count; ++r) {
             const auto region = static_cast<trace::Region>(r);
             if (!took_part(hierarchy, region)) continue;
-            open_row(machine.levels[level].name, r);
-            for (const Column& column : level_columns)
-                rows += fmt::format(",{}", hierarchy.stats(level, region).*column.count);
-            rows += std::string(dram_cells, ',') + '\n';
+            results::MachineRow& row = rows.emplace_back();
+            row.machine = machine.name;
+            row.level = level;
+            row.region = trace::region_names[r];
+            fill(row, region);
         }
-    const cachesim::Dram* const dram = hierarchy.dram();
-    if (!dram) return rows;
-    for (std::size_t r = 0; r < trace::region_count; ++r) {
-        const auto region = static_cast<trace::Region>(r);
-        if (!took_part(hierarchy, region)) continue;
-        const DramStats& stats = dram->stats(region);
-        open_row("dram", r);
-        rows += std::string(std::size(level_columns), ',');
-        rows += fmt::format(",{},{},{},{},{},{}\n", stats.bursts_read, stats.bursts_written, stats.row_hits,
-                            stats.row_empty, stats.row_conflicts, dram->picojoules(stats));
-    }
+    };
+    for (std::size_t level = 0; level < hierarchy.levels(); ++level)
+        each_region(machine.levels[level].name, [&](results::MachineRow& row, trace::Region region) {
+            const LevelStats& stats = hierarchy.stats(level, region);
+            row.accesses = stats.accesses;
+            row.hits = stats.hits;
+            row.misses = stats.misses;
+            row.sector_misses = stats.sector_misses;
+            row.victim_hits = stats.victim_hits;
+            row.writebacks = stats.writebacks;
+            row.clean_victims = stats.clean_victims;
+            row.writes_through = stats.passed_writes;
+            row.back_invalidations = stats.back_invalidations;
+            row.prefetches = stats.prefetches;
+            row.useful_prefetches = stats.useful_prefetches;
+            row.bytes_in = stats.bytes_in;
+            row.bytes_out = stats.bytes_out;
+        });
+    if (const cachesim::Dram* const dram = hierarchy.dram())
+        each_region("dram", [&](results::MachineRow& row, trace::Region region) {
+            const DramStats& stats = dram->stats(region);
+            row.bursts_read = stats.bursts_read;
+            row.bursts_written = stats.bursts_written;
+            row.row_hits = stats.row_hits;
+            row.row_empty = stats.row_empty;
+            row.row_conflicts = stats.row_conflicts;
+            row.picojoules = dram->picojoules(stats);
+        });
     return rows;
 }
 
-std::string run_machines(std::span<const Machine> machines, const cachesim::AddressFiles& files,
-                         Progress& progress) {
+std::vector<results::MachineRow> run_machines(std::span<const Machine> machines,
+                                              const cachesim::AddressFiles& files, Progress& progress) {
     cachesim::AddressTrace trace(files);
     std::vector<Hierarchy> hierarchies;
     for (const Machine& machine : machines) hierarchies.push_back(machine.hierarchy());
@@ -198,12 +187,13 @@ std::string run_machines(std::span<const Machine> machines, const cachesim::Addr
         if (total != 0) progress.update("cachesim", unit, done, total);
     }
     for (const std::string& note : trace.notes()) progress.note(note);
-    std::string csv = machine_header();
+    std::vector<results::MachineRow> rows;
     for (std::size_t i = 0; i < machines.size(); ++i) {
         hierarchies[i].flush();
-        csv += machine_rows(machines[i], hierarchies[i]);
+        for (results::MachineRow& row : machine_rows(machines[i], hierarchies[i]))
+            rows.push_back(std::move(row));
     }
-    return csv;
+    return rows;
 }
 
 void add_machines(Command& command) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -15,18 +16,15 @@
 #include "experiment/race.h"
 #include "experiment/workload.h"
 #include "replay/verification.h"
+#include "results/csv.h"
 #include "results/provenance.h"
+#include "results/race_row.h"
 #include "spatial/photon_kd.h"
 #include "trace/error.h"
-#include "trace/file.h"
 #include "trace/folder.h"
 
 namespace regather::cli {
 namespace {
-
-constexpr std::string_view csv_header =
-    "scene,structure,ordering,tile,bins,parameters,queries,photons,k,threads,repeats,order_seconds_median,"
-    "search_seconds_median,search_seconds_min,search_seconds_max,search_seconds_mad,net_gain_seconds\n";
 
 struct Options {
     std::filesystem::path trace, csv;
@@ -61,13 +59,6 @@ reorder::Workload raced(trace::TraceReader& trace, const reorder::Reads& reads, 
     return experiment::middle_of(experiment::workload(trace, reads), wanted);
 }
 
-std::string quoted(const std::string& cell) {
-    if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
-    std::string doubled;
-    for (const char c : cell) doubled.append(c == '"' ? 2 : 1, c);
-    return fmt::format("\"{}\"", doubled);
-}
-
 struct Result {
     const trace::TraceInfo& info;
     const std::vector<reorder::ParsedOrdering>& orderings;
@@ -76,52 +67,41 @@ struct Result {
     experiment::Race race;
 };
 
-std::string csv_text(const Result& result) {
-    std::string csv(csv_header);
-    const auto number = [](const std::optional<std::uint32_t>& value) {
-        return value ? fmt::to_string(*value) : "";
-    };
+std::vector<results::RaceRow> rows_of(const Result& result) {
+    std::vector<results::RaceRow> rows;
     for (const experiment::Standing& standing : result.race.standings) {
         const reorder::OrderingSpec& spec = result.orderings[standing.ordering].spec;
-        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n",
-                           quoted(result.info.scene), name(standing.structure), quoted(spec.name),
-                           number(spec.tile), number(spec.bins), quoted(spec.text), result.queries,
-                           result.info.photons, result.config.k, result.config.threads, result.config.repeats,
-                           standing.order.median, standing.search.median, standing.search.min,
-                           standing.search.max, standing.search.mad, standing.net_gain);
+        results::RaceRow& row = rows.emplace_back();
+        row.scene = result.info.scene;
+        row.structure = name(standing.structure);
+        row.ordering = spec.name;
+        row.tile = spec.tile;
+        row.bins = spec.bins;
+        row.parameters = spec.text;
+        row.queries = result.queries;
+        row.photons = result.info.photons;
+        row.k = result.config.k;
+        if (std::isfinite(result.config.radius)) row.radius = result.config.radius;
+        row.gathered = result.config.gathered;
+        row.threads = result.config.threads;
+        row.repeats = result.config.repeats;
+        row.order_seconds_median = standing.order.median;
+        row.search_seconds_median = standing.search.median;
+        row.search_seconds_min = standing.search.min;
+        row.search_seconds_max = standing.search.max;
+        row.search_seconds_mad = standing.search.mad;
+        row.net_gain_seconds = standing.net_gain;
     }
-    return csv;
+    return rows;
 }
 
-/// One line an ordering, the structures side by side.
-std::string table_text(const Result& result) {
-    const auto per_query = [&](double seconds) {
-        return seconds * 1e6 / static_cast<double>(result.queries);
-    };
-    std::string out =
-        fmt::format("{} | {} queries | {} photons | k {} | {} thread{} | medians of {} repeats\n",
+results::Table table_of(const Result& result, std::span<const results::RaceRow> rows) {
+    results::Table table = results::race_table(rows);
+    table.title =
+        fmt::format("{} | {} queries | {} photons | k {} | {} thread{} | medians of {} repeats",
                     result.info.scene, result.queries, result.info.photons, result.config.k,
                     result.config.threads, result.config.threads == 1 ? "" : "s", result.config.repeats);
-    std::string names = fmt::format("{:<32} {:>9}", "", ""),
-                header = fmt::format("{:<32} {:>9}", "ordering", "order us");
-    for (const experiment::Structure structure : result.config.structures) {
-        names += fmt::format(" | {:<28}", name(structure));
-        header += fmt::format(" | {:>9} {:>7} {:>10}", "search us", "+- mad", "net gain s");
-    }
-    out += names + "\n" + header + "\n";
-    const std::size_t kinds = result.config.structures.size();
-    for (std::size_t i = 0; i < result.race.standings.size(); i += kinds) {
-        const experiment::Standing& first = result.race.standings[i];
-        out += fmt::format("{:<32} {:>9.3f}", result.orderings[first.ordering].spec.text,
-                           per_query(first.order.median));
-        for (std::size_t s = 0; s < kinds; ++s) {
-            const experiment::Standing& standing = result.race.standings[i + s];
-            out += fmt::format(" | {:>9.3f} {:>7.3f} {:>10.3f}", per_query(standing.search.median),
-                               per_query(standing.search.mad), standing.net_gain);
-        }
-        out += "\n";
-    }
-    return out;
+    return table;
 }
 
 void race(const Options& options, const Console& console) {
@@ -165,11 +145,12 @@ void race(const Options& options, const Console& console) {
         throw trace::DataError(fmt::format(
             "{}: found_photons: found {}, expected {}, which the searches find",
             (trace.folder() / "trace.json").string(), info.found_photons, result.race.found_photons));
+    const std::vector<results::RaceRow> rows = rows_of(result);
     if (!options.csv.empty()) {
-        trace::write_whole(options.csv, csv_text(result));
+        results::write_csv<results::RaceRow>(options.csv, rows);
         results::write_provenance(options.csv, provenance(console, trace.checksum()), info.parameters);
     }
-    console.print("{}", table_text(result));
+    console.print("{}", results::text_of(table_of(result, rows)));
     if (!options.csv.empty()) console.print("rows: {}\n", options.csv.string());
 }
 

@@ -15,19 +15,20 @@
 #include "results/benefit.h"
 #include "results/csv.h"
 #include "results/provenance.h"
-#include "results/table.h"
+#include "results/traffic_table.h"
 #include "trace/error.h"
-#include "trace/file.h"
 #include "trace/size.h"
 
 namespace regather::cli {
 namespace {
 
-/// The rows of cli/machine.h for each ordering, with its name before them.
-std::string through_machines(const experiment::Measurement& measurement, const trace::TraceReader& trace,
-                             std::span<const reorder::ParsedOrdering> orderings,
-                             std::span<const cachesim::Machine> machines, const Console& console) {
-    std::string text = "scene,ordering,parameters," + machine_header();
+/// The rows of cli/machine.h for each ordering, with its name.
+std::vector<results::MachineRow> through_machines(const experiment::Measurement& measurement,
+                                                  const trace::TraceReader& trace,
+                                                  std::span<const reorder::ParsedOrdering> orderings,
+                                                  std::span<const cachesim::Machine> machines,
+                                                  const Console& console) {
+    std::vector<results::MachineRow> rows;
     Progress progress(console);
     for (const reorder::ParsedOrdering& parsed : orderings) {
         std::vector<cachesim::Hierarchy> systems;
@@ -35,17 +36,15 @@ std::string through_machines(const experiment::Measurement& measurement, const t
         measurement.through(measurement.order(*parsed.ordering), systems, [&](std::uint64_t done) {
             progress.update("replaying " + parsed.spec.text, "queries", done, measurement.queries());
         });
-        for (std::size_t m = 0; m < machines.size(); ++m) {
-            const std::string rows = machine_rows(machines[m], systems[m]);
-            for (std::size_t at = 0; at < rows.size();) {
-                const std::size_t end = rows.find('\n', at) + 1;
-                text += fmt::format("{},{},\"{}\",{}", trace.info().scene, parsed.spec.name, parsed.spec.text,
-                                    rows.substr(at, end - at));
-                at = end;
+        for (std::size_t m = 0; m < machines.size(); ++m)
+            for (results::MachineRow& row : machine_rows(machines[m], systems[m])) {
+                row.scene = trace.info().scene;
+                row.ordering = parsed.spec.name;
+                row.parameters = parsed.spec.text;
+                rows.push_back(std::move(row));
             }
-        }
     }
-    return text;
+    return rows;
 }
 
 struct Options {
@@ -99,12 +98,14 @@ void run(const Options& options, const Console& console) {
         const std::vector<results::Row> rows =
             through_caches(measurement, orderings, caches, method, console);
         csv = results::to_csv(rows);
-        table = results::table(rows);
+        table = results::traffic_text(rows);
     } else {
-        csv = through_machines(measurement, trace, orderings, machines, console);
+        const auto rows = through_machines(measurement, trace, orderings, machines, console);
+        csv = results::to_csv<results::MachineRow>(rows);
+        table = results::text_of(results::table_of<results::MachineRow>(rows));
     }
     if (options.csv.empty()) return console.print("{}", csv);
-    trace::write_whole(options.csv, csv);
+    results::write_csv(options.csv, csv);
     results::write_provenance(options.csv, provenance(console, trace.checksum()), trace.info().parameters);
     console.print("{}rows: {}\n", table, options.csv.string());
 }

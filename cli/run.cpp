@@ -18,7 +18,7 @@
 #include "results/benefit.h"
 #include "results/csv.h"
 #include "results/provenance.h"
-#include "results/table.h"
+#include "results/traffic_table.h"
 #include "trace/folder.h"
 
 namespace regather::cli {
@@ -78,8 +78,8 @@ void run(const Options& options, const Console& console) {
     results::write_csv(csv, made.rows);
     results::write_provenance(csv, provenance(console, fmt::format("{}", fmt::join(made.checksums, " "))),
                               made.parameters);
-    const auto drawn = charts::write_charts(options.folder / "charts", made.rows, {}, {});
-    console.print("{}", results::table(made.rows));
+    const auto drawn = charts::write_charts(options.folder / "charts", results::Rows(made.rows), {}, {});
+    console.print("{}", results::traffic_text(made.rows));
     for (const fs::path& folder : made.folders)
         console.print("image:  {}\n", (folder / "image.png").string());
     console.print("rows:   {}\n", csv.string());

@@ -6,11 +6,11 @@
 #include <memory>
 
 #include "cachesim/cache_list.h"
-#include "charts/accuracy.h"
 #include "cli/command.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "cli/version.h"
+#include "results/accuracy.h"
 #include "results/csv.h"
 #include "results/provenance.h"
 
@@ -35,7 +35,7 @@ void run(const Options& options, const Console& console) {
     if (options.csv.empty()) return console.print("{}", results::to_csv<results::SamplingRow>(rows));
     results::write_csv<results::SamplingRow>(options.csv, rows);
     results::write_provenance(options.csv, provenance(console, trace.checksum()), trace.info().parameters);
-    console.print("{}rows: {}\n", charts::accuracy_table(rows), options.csv.string());
+    console.print("{}rows: {}\n", results::text_of(results::accuracy_table(rows)), options.csv.string());
 }
 
 }  // namespace

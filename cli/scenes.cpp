@@ -14,6 +14,7 @@
 #include "cli/command.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
+#include "results/table.h"
 #include "scenes/camera_path.h"
 #include "scenes/catalogue.h"
 #include "scenes/loader.h"
@@ -56,22 +57,6 @@ std::string bounds_of(const Scene& scene) {
     return fmt::format("{} to {}", in_words(bounds.min), in_words(bounds.max));
 }
 
-using Row = std::array<std::string, 8>;
-
-void print_table(const std::vector<Row>& rows, const Console& console) {
-    std::array<std::size_t, std::tuple_size_v<Row>> widths{};
-    for (const Row& row : rows)
-        for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
-    for (const Row& row : rows) {
-        std::string line;
-        for (std::size_t c = 0; c < row.size(); ++c) {
-            line += row[c];
-            if (c + 1 < row.size()) line += std::string(widths[c] - row[c].size() + 2, ' ');
-        }
-        console.print("{}\n", line);
-    }
-}
-
 std::string in_percent(double share) {
     return fmt::format("{:.1f} %", 100 * share);
 }
@@ -94,15 +79,22 @@ double seen_over_path(const Scene& scene) {
 }
 
 void print_all(const Console& console) {
-    std::vector<Row> rows{
-        {"name", "triangles", "materials", "lights", "power [W] (R G B)", "bounds [m]", "seen", "frames"}};
+    using results::Align;
+    results::Table all({{"name", Align::left},
+                        {"triangles"},
+                        {"materials", Align::left},
+                        {"lights"},
+                        {"power [W] (R G B)", Align::left},
+                        {"bounds [m]", Align::left},
+                        {"seen"},
+                        {"frames"}});
     for (const scenes::EmbeddedScene& entry : scenes::catalogue()) {
         const Scene scene = scenes::load_scene(entry.name);
-        rows.push_back({scene.name, fmt::format("{}", scene.triangles.size()), materials_of(scene),
-                        fmt::format("{}", scene.lights.size()), in_words(total_power(scene)),
-                        bounds_of(scene), in_percent(seen_by_camera(scene)), frames_of(scene)});
+        all.add({scene.name, fmt::format("{}", scene.triangles.size()), materials_of(scene),
+                 fmt::format("{}", scene.lights.size()), in_words(total_power(scene)), bounds_of(scene),
+                 in_percent(seen_by_camera(scene)), frames_of(scene)});
     }
-    print_table(rows, console);
+    console.print("{}", results::text_of(all));
 }
 
 void write_thumbnails(const std::filesystem::path& file, std::vector<std::string> names, bool force,

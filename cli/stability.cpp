@@ -8,14 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "capture/fingerprint.h"
 #include "charts/chart.h"
-#include "charts/stability.h"
 #include "cli/command.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "cli/version.h"
 #include "results/csv.h"
 #include "results/provenance.h"
+#include "scenes/loader.h"
 #include "study/stability.h"
 
 namespace regather::cli {
@@ -33,6 +34,12 @@ std::vector<const study::CaseGroup*> wanted_groups(const Options& options) {
     if (groups.empty())
         for (const study::CaseGroup& group : study::case_groups()) groups.push_back(&group);
     return groups;
+}
+
+/// The cases have scenes of their own; one embedded scene stands for them.
+trace::Json renderer() {
+    const scenes::Scene scene = scenes::load_scene("cornell");
+    return trace::Json::object({{"scene", scene.name}, {"fingerprint", capture::fingerprint(scene)}});
 }
 
 void run(const Options& options, const Console& console) {
@@ -60,16 +67,15 @@ void run(const Options& options, const Console& console) {
                 study::run_case(*group, one, options.quick ? study::Effort::quick : study::Effort::full));
         }
     }
-    console.print("{}", charts::stability_table(rows));
+    console.print("{}", results::text_of(results::stability_table(rows)));
     if (!options.folder.empty()) {
         results::write_csv<results::StabilityRow>(csv, rows);
         results::write_provenance(csv, provenance(console, {}),
-                                  trace::Json::object({{"quick", options.quick}}));
-        charts::Rows all;
-        all.stability = rows;
+                                  trace::Json::object({{"quick", options.quick}, {"renderer", renderer()}}));
         console.print("{}\n", csv.string());
         const std::string kind = "stability";
-        for (const charts::Drawn& drawn : charts::write_charts(options.folder, all, std::span(&kind, 1), {}))
+        for (const charts::Drawn& drawn :
+             charts::write_charts(options.folder, results::Rows(rows), std::span(&kind, 1), {}))
             for (const auto& file : drawn.files) console.print("{}\n", file.string());
     }
     std::size_t failed = 0;

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "capture/fingerprint.h"
 #include "experiment/frames.h"
 #include "scenes/camera_path.h"
 #include "scenes/loader.h"
@@ -46,10 +47,10 @@ std::optional<std::string> kept(const fs::path& folder, const Files& files, cons
     if (!fs::exists(files.trace / "trace.json")) return std::nullopt;
     const trace::TraceReader trace(files.trace);
     if (trace.info().parameters != capture::parameters(scene, config) || !has_columns(trace, config.columns))
-        throw trace::UsageError(
-            fmt::format("{}: holds a trace with other parameters or columns than asked for; give "
-                        "another folder, or --force to capture again",
-                        files.trace.string()));
+        throw trace::UsageError(fmt::format(
+            "{}: holds a trace with other parameters or columns than asked for, or of another renderer; "
+            "give another folder, or --force to capture again",
+            files.trace.string()));
     for (const fs::path& image : {files.exr, files.png})
         if (!fs::exists(image))
             throw trace::UsageError(fmt::format("{}: holds the trace, but no {}; --force captures again",
@@ -119,6 +120,7 @@ CaptureResult run(const CaptureJob& job, const ProgressListener& progress) {
     scenes::Scene scene = scenes::load_scene(job.scene);
     tell(job.note, scene.notes);
     capture::CaptureConfig config = job.options.config();
+    config.renderer = capture::fingerprint(scene);
     if (job.reads) {
         config.columns.direction = job.reads->direction || job.reads->captured;
         config.columns.leaf_kd = job.reads->leaf_kd || job.reads->captured;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "replay/detail.h"
 #include "results/geometry.h"
@@ -95,29 +94,23 @@ Detail detail(const Measurement& measurement, const std::string& scene, const De
     return result;
 }
 
-std::string detail_table(std::span<const DetailLine> lines) {
-    constexpr std::size_t columns = 7;
-    std::vector<std::array<std::string, columns>> cells{
-        {"ordering", "photons", "buffers", "sum", "overfetch", "3C [%]", "counted reorder"}};
-    for (const DetailLine& line : lines) {
-        cells.push_back({line.ordering, results::decimal_bytes(line.photon_bytes),
-                         line.buffer_bytes ? results::decimal_bytes(*line.buffer_bytes) : "",
-                         results::decimal_bytes(line.traffic_bytes),
-                         line.sum.used_bytes == 0
-                             ? ""
-                             : fmt::format("{:.2f}", static_cast<double>(line.traffic_bytes) /
-                                                         static_cast<double>(line.sum.used_bytes)),
-                         percentages(line.sum), results::decimal_bytes(line.reorder_bytes)});
-    }
-    std::array<std::size_t, columns> widths{};
-    for (const auto& row : cells)
-        for (std::size_t c = 0; c < columns; ++c) widths[c] = std::max(widths[c], row[c].size());
-    std::string out;
-    for (const auto& row : cells) {
-        std::string text = fmt::format("{:<{}}", row[0], widths[0]);
-        for (std::size_t c = 1; c < columns; ++c) text += fmt::format("  {:>{}}", row[c], widths[c]);
-        out += text.substr(0, text.find_last_not_of(' ') + 1) + '\n';
-    }
+results::Table detail_table(std::span<const DetailLine> lines) {
+    results::Table out({{"ordering", results::Align::left},
+                        {"photons"},
+                        {"buffers"},
+                        {"sum"},
+                        {"overfetch"},
+                        {"3C [%]"},
+                        {"counted reorder"}});
+    for (const DetailLine& line : lines)
+        out.add({line.ordering, results::decimal_bytes(line.photon_bytes),
+                 line.buffer_bytes ? results::decimal_bytes(*line.buffer_bytes) : "",
+                 results::decimal_bytes(line.traffic_bytes),
+                 line.sum.used_bytes == 0
+                     ? ""
+                     : fmt::format("{:.2f}", static_cast<double>(line.traffic_bytes) /
+                                                 static_cast<double>(line.sum.used_bytes)),
+                 percentages(line.sum), results::decimal_bytes(line.reorder_bytes)});
     return out;
 }
 

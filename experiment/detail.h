@@ -11,6 +11,7 @@
 #include "experiment/measurement.h"
 #include "experiment/progress.h"
 #include "results/detail_row.h"
+#include "results/table.h"
 #include "results/timeline_row.h"
 
 namespace regather::experiment {
@@ -43,6 +44,6 @@ Detail detail(const Measurement& measurement, const std::string& scene, const De
               const ProgressListener& progress);
 
 /// What people read of one cache's lines: traffic by region, overfetch, shares of the classes of misses.
-std::string detail_table(std::span<const DetailLine> lines);
+results::Table detail_table(std::span<const DetailLine> lines);
 
 }  // namespace regather::experiment

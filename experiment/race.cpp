@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "results/median.h"
 #include "spatial/nearest.h"
 #include "spatial/photon_buckets.h"
 
@@ -23,13 +24,6 @@ constexpr std::size_t block_queries = 1024;  ///< A thread takes so many neighbo
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-double median_of(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    if (values.size() % 2 == 1) return *middle;
-    return (*middle + *std::max_element(values.begin(), middle)) / 2;
 }
 
 /// What stands for the photons that a query found: the same in any sequence. Touching them is part of a
@@ -140,11 +134,11 @@ std::optional<Structure> structure_named(std::string_view word) {
 }
 
 Timing timing_of(std::vector<double> seconds) {
-    const double median = median_of(seconds);
+    const double middle = results::median(seconds);
     const auto [min, max] = std::minmax_element(seconds.begin(), seconds.end());
-    Timing timing{median, *min, *max, 0};
-    for (double& value : seconds) value = std::fabs(value - median);
-    timing.mad = median_of(std::move(seconds));
+    Timing timing{middle, *min, *max, 0};
+    for (double& value : seconds) value = std::fabs(value - middle);
+    timing.mad = results::median(std::move(seconds));
     return timing;
 }
 
@@ -207,7 +201,8 @@ Race race(std::span<const trace::Photon> heap, const reorder::Workload& work,
                 gain.push_back(search_seconds[baseline * kinds + s][repeat] -
                                (search[repeat] + order_seconds[i][repeat]));
             result.standings.push_back({i, config.structures[s], timing_of(order_seconds[i]),
-                                        timing_of(search), i == baseline ? 0 : median_of(std::move(gain))});
+                                        timing_of(search),
+                                        i == baseline ? 0 : results::median(std::move(gain))});
         }
     }
     return result;

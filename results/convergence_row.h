@@ -1,17 +1,16 @@
 // results/convergence_row.h -- one setting of the renderer: how long it took and how far its images were from
 // the reference, over several seeds; and a step of a ladder, which is a setting to be measured.
 #pragma once
-#include <optional>
 #include <string>
 
-#include "results/row.h"
+#include "results/column.h"
 
 namespace regather::results {
 
-using Number = std::optional<double>;
-
 /// Empty: as the program's defaults have it.
 struct LadderRow {
+    static const RowKind& kind();
+
     std::string ladder;  ///< What is varied: "photons".
     std::string mode;    ///< "final-gather" or "direct"
     Count gather_rays, photons, k;
@@ -20,6 +19,8 @@ struct LadderRow {
 };
 
 struct ConvergenceRow : LadderRow {
+    static const RowKind& kind();
+
     std::string scene, reference;  ///< Reference: checksum of its pixels.
     Count shadow_rays, width, height;
     Count seeds;            ///< Images rendered; all that follows is a mean over them.
@@ -28,8 +29,7 @@ struct ConvergenceRow : LadderRow {
     Number total_seconds;  ///< The three together.
     Count pixels;          ///< That count for RMSE, bias and variance: no lights and their edges.
     Number rmse;           ///< [W / (m^2 sr)] The reference's own error is taken off.
-    std::optional<bool>
-        below_reference;  ///< `rmse` is not told apart from the reference's error, which stands there.
+    Flag below_reference;  ///< `rmse` is not told apart from the reference's error, which stands there.
     Number rel_mse, rel_mse_trimmed, mape, ldr_flip,
         hdr_flip;         ///< As measured: with the reference's error in them.
     Number variance;      ///< Mean over pixels and channels [(W / (m^2 sr))^2].

@@ -5,49 +5,16 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <iterator>
+#include <optional>
 
+#include "results/table.h"
 #include "trace/error.h"
 #include "trace/file.h"
+#include "trace/text.h"
+#include "trace/word.h"
 
 namespace regather::results {
 namespace {
-
-std::string text_cell(std::string_view text) {
-    if (text.find_first_of(",\"\r\n") == text.npos) return std::string(text);
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-    return out + '"';
-}
-
-template <class R>
-struct CellWriter {
-    const R& row;
-    std::string operator()(std::string R::*field) const { return text_cell(row.*field); }
-    std::string operator()(Count R::*field) const { return row.*field ? fmt::to_string(*(row.*field)) : ""; }
-    std::string operator()(Signed R::*field) const { return row.*field ? fmt::to_string(*(row.*field)) : ""; }
-    std::string operator()(Flag R::*field) const { return !(row.*field) ? "" : *(row.*field) ? "1" : "0"; }
-    std::string operator()(Ways<R> ways) const {
-        return row.*ways.field == std::uint64_t{0} ? "full" : (*this)(ways.field);
-    }
-    std::string operator()(Seconds<R> seconds) const {
-        return row.*seconds.field ? fmt::format("{:.6f}", *(row.*seconds.field)) : "";
-    }
-    std::string operator()(Real<R> real) const { return number(real.field); }
-    std::string operator()(SignedReal<R> real) const { return number(real.field); }
-
-private:
-    std::string number(std::optional<double> R::*field) const {
-        return row.*field ? fmt::format("{}", *(row.*field)) : "";
-    }
-};
-
-/// What was found, fit for one line of a message.
-std::string shown(std::string_view text) {
-    std::string out;
-    for (const char c : text.substr(0, 40)) out += static_cast<unsigned char>(c) < ' ' ? '?' : c;
-    return text.size() > 40 ? out + "..." : out;
-}
 
 /// Cuts the text into records of cells; remembers lines for messages.
 class Records {
@@ -78,9 +45,9 @@ public:
 
     [[noreturn]] void refuse(std::size_t line, std::size_t cell, std::string_view name,
                              std::string_view found, std::string_view expected) const {
-        throw trace::DataError(fmt::format("{}: line {}, column {}{}: found {}, expected {}", file_, line,
-                                           cell + 1, name.empty() ? "" : fmt::format(" ({})", shown(name)),
-                                           found, expected));
+        throw trace::DataError(
+            fmt::format("{}: line {}, column {}{}: found {}, expected {}", file_, line, cell + 1,
+                        name.empty() ? "" : fmt::format(" ({})", trace::shown(name)), found, expected));
     }
 
 private:
@@ -132,47 +99,55 @@ std::errc parse(const std::string& text, T& value) {
     return error == std::errc{} && end != text.data() + text.size() ? std::errc::invalid_argument : error;
 }
 
-template <class R>
+bool is_signed(Form form) {
+    return form == Form::signed_real || form == Form::signed_seconds;
+}
+
+/// Each reads a cell that is not empty; null, or what was expected.
 struct CellReader {
-    R& row;
+    Form form;
     const std::string& text;
-    /// Null, or what was expected.
-    const char* operator()(std::string R::*field) const {
-        row.*field = text;
+
+    const char* operator()(std::string* field) const {
+        *field = text;
         return nullptr;
     }
-    const char* operator()(Count R::*field) const {
-        return whole(row.*field, "a whole number below 2^64", "a whole number or an empty cell");
-    }
-    const char* operator()(Signed R::*field) const {
-        return whole(row.*field, "a whole number from -2^63 to below 2^63",
-                     "a whole number, with a minus when below 0, or an empty cell");
-    }
-    const char* operator()(Flag R::*field) const {
-        if (text != "0" && text != "1") return "1, 0 or an empty cell";
-        row.*field = text == "1";
-        return nullptr;
-    }
-    const char* operator()(Ways<R> ways) const {
+    const char* operator()(Count* field) const {
+        if (form != Form::ways)
+            return whole(*field, "a whole number below 2^64", "a whole number or an empty cell");
         if (text == "full") {
-            row.*ways.field = 0;
+            *field = 0;
             return nullptr;
         }
-        return (*this)(ways.field) != nullptr || row.*ways.field == std::uint64_t{0}
-                   ? "a whole number from 1 up, \"full\" or an empty cell"
-                   : nullptr;
+        constexpr const char* expected = "a whole number from 1 up, \"full\" or an empty cell";
+        return whole(*field, expected, expected) != nullptr || *field == std::uint64_t{0} ? expected
+                                                                                          : nullptr;
     }
-    const char* operator()(Seconds<R> seconds) const {
-        return real(row.*seconds.field, "seconds as a decimal number from 0 up, or an empty cell");
+    const char* operator()(Signed* field) const {
+        return whole(*field, "a whole number from -2^63 to below 2^63",
+                     "a whole number, with a minus when below 0, or an empty cell");
     }
-    const char* operator()(Real<R> number) const {
-        return real(row.*number.field, "a decimal number from 0 up, or an empty cell");
+    const char* operator()(Flag* field) const {
+        if (text != "0" && text != "1") return "1, 0 or an empty cell";
+        *field = text == "1";
+        return nullptr;
     }
-    const char* operator()(SignedReal<R> number) const {
+    const char* operator()(Number* field) const {
         double value = 0;
-        if (parse(text, value) != std::errc{} || !std::isfinite(value))
-            return "a decimal number or an empty cell";
-        row.*number.field = value;
+        if (parse(text, value) != std::errc{} || !std::isfinite(value) ||
+            (!is_signed(form) && (value < 0 || std::signbit(value)))) {
+            switch (form) {
+                case Form::seconds:
+                    return "seconds as a decimal number from 0 up, or an empty cell";
+                case Form::signed_seconds:
+                    return "seconds as a decimal number, or an empty cell";
+                case Form::signed_real:
+                    return "a decimal number, or an empty cell";
+                default:
+                    return "a decimal number from 0 up, or an empty cell";
+            }
+        }
+        *field = value;
         return nullptr;
     }
 
@@ -186,145 +161,131 @@ private:
         field = value;
         return nullptr;
     }
-    const char* real(std::optional<double>& field, const char* expected) const {
-        double value = 0;
-        if (parse(text, value) != std::errc{} || !std::isfinite(value) || std::signbit(value))
-            return expected;
-        field = value;
-        return nullptr;
+};
+
+struct CellWriter {
+    Form form;
+
+    std::string operator()(const std::string* field) const { return *field; }
+    std::string operator()(const Count* field) const {
+        if (form == Form::ways && *field == std::uint64_t{0}) return "full";
+        return *field ? fmt::to_string(**field) : "";
+    }
+    std::string operator()(const Signed* field) const { return *field ? fmt::to_string(**field) : ""; }
+    std::string operator()(const Flag* field) const { return !*field ? "" : **field ? "1" : "0"; }
+    std::string operator()(const Number* field) const {
+        if (!*field) return "";
+        return form == Form::seconds || form == Form::signed_seconds ? fmt::format("{:.6f}", **field)
+                                                                     : fmt::format("{}", **field);
     }
 };
 
-/// Where each known column stands in the file: an index into the cells, or nothing.
-template <class R>
-std::vector<std::optional<std::size_t>> places(const std::vector<std::string>& header,
-                                               const Records& records) {
+std::size_t place_of(std::span<const std::string> header, std::string_view name) {
+    return static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
+}
+
+/// Names of columns of `kind` that the header does not have.
+std::vector<std::string_view> absent(const RowKind& kind, std::span<const std::string> header) {
+    std::vector<std::string_view> out;
+    for (const Column& column : kind.columns)
+        if (place_of(header, column.name) == header.size()) out.push_back(column.name);
+    return out;
+}
+
+/// The absent column that `name` is likely to mean: told from it by a letter or two.
+std::optional<std::string_view> likely(std::string_view name, std::span<const std::string_view> absent) {
+    constexpr std::size_t shortest = 4;
+    if (name.size() < shortest || absent.empty()) return {};
+    const auto nearest = trace::nearest_words(name, absent);
+    return nearest.size() == 1 && trace::edit_distance(name, nearest[0]) <= 2 ? std::optional(nearest[0])
+                                                                              : std::nullopt;
+}
+
+/// Where each column of `kind` stands in the file, if it does.
+std::vector<std::optional<std::size_t>> places(const RowKind& kind, std::span<const std::string> header,
+                                               const Records& records, std::vector<std::string>* unknown) {
+    const std::vector<std::string_view> missing = absent(kind, header);
+    for (std::size_t h = 0; h < header.size(); ++h) {
+        const bool known = std::any_of(kind.columns.begin(), kind.columns.end(),
+                                       [&](const Column& column) { return column.name == header[h]; });
+        if (known && place_of(header, header[h]) != h)
+            records.refuse(records.line(), h, header[h], "the column a second time", "each column once");
+        if (known) continue;
+        if (const auto meant = likely(header[h], missing))
+            records.refuse(records.line(), h, header[h], "a column that is not known",
+                           fmt::format("\"{}\"", *meant));
+        if (unknown != nullptr) unknown->push_back(header[h]);
+    }
     std::vector<std::optional<std::size_t>> out;
-    for (const Column<R>& column : columns<R>()) {
-        const auto first = std::find(header.begin(), header.end(), column.name);
-        const auto cell = static_cast<std::size_t>(first - header.begin());
-        if (first == header.end()) {
-            if (column.needed)
-                records.refuse(records.line(), header.size(), column.name, "the end of the header",
-                               fmt::format("a column \"{}\"", column.name));
-            out.emplace_back();
-            continue;
-        }
-        const auto again = std::find(first + 1, header.end(), column.name);
-        if (again != header.end())
-            records.refuse(records.line(), static_cast<std::size_t>(again - header.begin()), column.name,
-                           "the column a second time", "each column once");
-        out.emplace_back(cell);
+    for (const Column& column : kind.columns) {
+        const std::size_t place = place_of(header, column.name);
+        if (place == header.size() && column.needed)
+            records.refuse(records.line(), header.size(), column.name, "the end of the header",
+                           fmt::format("a column \"{}\"", column.name));
+        out.push_back(place == header.size() ? std::nullopt : std::optional(place));
     }
     return out;
 }
 
-std::vector<std::string> header_of(Records& records, std::string_view file) {
-    std::vector<std::string> header;
-    if (!records.next(header)) throw trace::DataError(fmt::format("{}: empty, expected a header line", file));
-    return header;
-}
-
-template <class R>
-bool has_needed(const std::vector<std::string>& header) {
-    return std::ranges::all_of(columns<R>(), [&](const Column<R>& column) {
-        return !column.needed || std::find(header.begin(), header.end(), column.name) != header.end();
-    });
-}
-
 }  // namespace
 
-template <class R>
-std::string to_csv(std::type_identity_t<std::span<const R>> rows) {
+std::string cell_text(const Column& column, const void* row) {
+    // The accessors give what may be written to; here it is only read.
+    return std::visit(CellWriter{column.form}, column.cell(const_cast<void*>(row)));
+}
+
+std::string to_csv(const RowKind& kind, const void* first, std::size_t count, std::size_t bytes) {
     std::string out;
-    for (const Column<R>& column : columns<R>()) fmt::format_to(std::back_inserter(out), "{},", column.name);
+    for (const Column& column : kind.columns) out += std::string(column.name) + ',';
     out.back() = '\n';
-    for (const R& row : rows) {
-        for (const Column<R>& column : columns<R>()) {
-            out += std::visit(CellWriter<R>{row}, column.field);
-            out += ',';
-        }
+    for (std::size_t i = 0; i < count; ++i) {
+        const void* row = static_cast<const std::byte*>(first) + i * bytes;
+        for (const Column& column : kind.columns) out += csv_cell(cell_text(column, row)) + ',';
         out.back() = '\n';
     }
     return out;
 }
 
-template <class R>
-std::vector<R> from_csv(std::string_view text, std::string_view file) {
+void from_csv(const RowKind& kind, std::string_view text, std::string_view file,
+              const std::function<void*()>& next, std::vector<std::string>* unknown) {
     Records records(text, file);
-    const std::vector<std::string> header = header_of(records, file);
-    const auto place = places<R>(header, records);
-
-    std::vector<std::string> cells;
-    std::vector<R> rows;
+    std::vector<std::string> header, cells;
+    if (!records.next(header)) throw trace::DataError(fmt::format("{}: empty, expected a header line", file));
+    const auto place = places(kind, header, records, unknown);
     while (records.next(cells)) {
         if (cells.size() != header.size())
             records.refuse(records.line(), std::min(cells.size(), header.size()), "",
                            fmt::format("{} cells", cells.size()),
                            fmt::format("{} as in the header", header.size()));
-        R& row = rows.emplace_back();
+        void* row = next();
         for (std::size_t c = 0; c < place.size(); ++c) {
             if (!place[c]) continue;
-            const Column<R>& column = columns<R>()[c];
+            const Column& column = kind.columns[c];
             const std::string& cell = cells[*place[c]];
             const char* expected = nullptr;
             if (!cell.empty())
-                expected = std::visit(CellReader<R>{row, cell}, column.field);
-            else if (column.name == "ordering")
-                expected = "the name of an ordering";
+                expected = std::visit(CellReader{column.form, cell}, column.cell(row));
+            else if (column.form == Form::name)
+                expected = "a name";
             if (expected != nullptr)
-                records.refuse(records.line(), *place[c], column.name, fmt::format("\"{}\"", shown(cell)),
-                               expected);
+                records.refuse(records.line(), *place[c], column.name, trace::in_quotes(cell), expected);
         }
     }
-    return rows;
 }
 
-template <class R>
-void write_csv(const std::filesystem::path& path, std::type_identity_t<std::span<const R>> rows) {
-    trace::write_whole(path, to_csv<R>(rows));
-}
-
-template <class R>
-std::vector<R> read_csv(const std::filesystem::path& path) {
-    return from_csv<R>(trace::read_file(path), path.string());
-}
-
-RowKind row_kind(std::string_view text, std::string_view file) {
+std::vector<std::string> header_of(std::string_view text, std::string_view file) {
     Records records(text, file);
-    const std::vector<std::string> header = header_of(records, file);
-    if (has_needed<ConvergenceRow>(header)) return RowKind::convergence;
-    if (has_needed<StabilityRow>(header)) return RowKind::stability;
-    if (has_needed<SamplingRow>(header)) return RowKind::sampling;
-    if (has_needed<TimelineRow>(header)) return RowKind::timeline;
-    if (has_needed<DetailRow>(header)) return RowKind::detail;
-    return RowKind::measurement;
+    std::vector<std::string> header;
+    if (!records.next(header)) throw trace::DataError(fmt::format("{}: empty, expected a header line", file));
+    return header;
 }
 
-template std::string to_csv<Row>(std::span<const Row>);
-template std::string to_csv<DetailRow>(std::span<const DetailRow>);
-template std::string to_csv<TimelineRow>(std::span<const TimelineRow>);
-template std::string to_csv<SamplingRow>(std::span<const SamplingRow>);
-template std::string to_csv<ConvergenceRow>(std::span<const ConvergenceRow>);
-template std::string to_csv<StabilityRow>(std::span<const StabilityRow>);
-template std::vector<Row> from_csv<Row>(std::string_view, std::string_view);
-template std::vector<DetailRow> from_csv<DetailRow>(std::string_view, std::string_view);
-template std::vector<TimelineRow> from_csv<TimelineRow>(std::string_view, std::string_view);
-template std::vector<SamplingRow> from_csv<SamplingRow>(std::string_view, std::string_view);
-template std::vector<StabilityRow> from_csv<StabilityRow>(std::string_view, std::string_view);
-template std::vector<ConvergenceRow> from_csv<ConvergenceRow>(std::string_view, std::string_view);
-template std::vector<LadderRow> from_csv<LadderRow>(std::string_view, std::string_view);
-template void write_csv<Row>(const std::filesystem::path&, std::span<const Row>);
-template void write_csv<DetailRow>(const std::filesystem::path&, std::span<const DetailRow>);
-template void write_csv<TimelineRow>(const std::filesystem::path&, std::span<const TimelineRow>);
-template void write_csv<SamplingRow>(const std::filesystem::path&, std::span<const SamplingRow>);
-template void write_csv<StabilityRow>(const std::filesystem::path&, std::span<const StabilityRow>);
-template void write_csv<ConvergenceRow>(const std::filesystem::path&, std::span<const ConvergenceRow>);
-template std::vector<Row> read_csv<Row>(const std::filesystem::path&);
-template std::vector<DetailRow> read_csv<DetailRow>(const std::filesystem::path&);
-template std::vector<TimelineRow> read_csv<TimelineRow>(const std::filesystem::path&);
-template std::vector<SamplingRow> read_csv<SamplingRow>(const std::filesystem::path&);
-template std::vector<StabilityRow> read_csv<StabilityRow>(const std::filesystem::path&);
-template std::vector<ConvergenceRow> read_csv<ConvergenceRow>(const std::filesystem::path&);
+void write_csv(const std::filesystem::path& path, std::string_view csv) {
+    trace::write_whole(path, csv);
+}
+
+std::string read_csv_text(const std::filesystem::path& path) {
+    return trace::read_file(path);
+}
 
 }  // namespace regather::results

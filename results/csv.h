@@ -4,81 +4,58 @@
 // docs/charts.md.
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
-#include <variant>
 #include <vector>
 
-#include "results/convergence_row.h"
-#include "results/detail_row.h"
 #include "results/row.h"
-#include "results/sampling_row.h"
-#include "results/stability_row.h"
-#include "results/timeline_row.h"
 
 namespace regather::results {
 
-using Signed = std::optional<std::int64_t>;
-using Flag = std::optional<bool>;  ///< Written as 1 or 0.
+/// What the CSV says of one column of a row, without quotes.
+std::string cell_text(const Column& column, const void* row);
 
-/// A count whose 0 is written as "full".
-template <class R>
-struct Ways {
-    Count R::*field;
-};
-/// From 0 up, with six digits after the point.
-template <class R>
-struct Seconds {
-    std::optional<double> R::*field;
-};
-/// From 0 up, with as many digits as give the same number back.
-template <class R>
-struct Real {
-    std::optional<double> R::*field;
-};
+/// `count` rows that begin at `first`, `bytes` apart.
+std::string to_csv(const RowKind& kind, const void* first, std::size_t count, std::size_t bytes);
 
-/// As Real, and below 0 too.
-template <class R>
-struct SignedReal {
-    std::optional<double> R::*field;
-};
+/// Rows that anybody wrote: columns in any order, absent ones left empty, CRLF accepted. `next` gives an
+/// empty row to fill. A column that nobody knows is refused when its name is close to one that is absent
+/// ("traffic_byte"), else left out and told in `unknown`. Throws trace::DataError (file, line, column, found,
+/// expected) for that, a missing needed column, a column named twice, a ragged row, broken quotes and a cell
+/// that its column does not take. `file` is for the message only.
+void from_csv(const RowKind& kind, std::string_view text, std::string_view file,
+              const std::function<void*()>& next, std::vector<std::string>* unknown = nullptr);
 
-/// A column is a field of a row under a name; the same table writes and reads.
-template <class R>
-struct Column {
-    std::string_view name;
-    std::variant<std::string R::*, Count R::*, Signed R::*, Flag R::*, Ways<R>, Seconds<R>, Real<R>,
-                 SignedReal<R>>
-        field;
-    bool needed = false;  ///< A file without it is refused.
-};
+/// The names in the header line. Throws trace::DataError for a text without one.
+std::vector<std::string> header_of(std::string_view text, std::string_view file);
 
-/// In the order in which they are written. R is a kind of row, here and below: Row, DetailRow, TimelineRow,
-/// SamplingRow, ConvergenceRow, LadderRow, StabilityRow.
-template <class R>
-std::span<const Column<R>> columns();
+/// Rows into a file, whole or not at all.
+void write_csv(const std::filesystem::path& path, std::string_view csv);
+/// The text of a file of rows.
+std::string read_csv_text(const std::filesystem::path& path);
+
+// By the type of row, which has its kind(); without it, measurements:
 
 template <class R = Row>
-std::string to_csv(std::type_identity_t<std::span<const R>> rows);
-
-/// Rows that anybody wrote: columns in any order, foreign ones ignored, absent ones left empty, CRLF
-/// accepted. Throws trace::DataError (file, line, column, found, expected) for a missing needed column, a
-/// column named twice, a ragged row, broken quotes and a cell that is no number. `file` is for the message
-/// only.
+std::string to_csv(std::type_identity_t<std::span<const R>> rows) {
+    return to_csv(R::kind(), rows.data(), rows.size(), sizeof(R));
+}
 template <class R = Row>
-std::vector<R> from_csv(std::string_view text, std::string_view file);
-
+std::vector<R> from_csv(std::string_view text, std::string_view file) {
+    std::vector<R> rows;
+    from_csv(R::kind(), text, file, [&]() -> void* { return &rows.emplace_back(); });
+    return rows;
+}
 template <class R = Row>
-void write_csv(const std::filesystem::path& path, std::type_identity_t<std::span<const R>> rows);
+void write_csv(const std::filesystem::path& path, std::type_identity_t<std::span<const R>> rows) {
+    write_csv(path, std::string_view(to_csv<R>(rows)));
+}
 template <class R = Row>
-std::vector<R> read_csv(const std::filesystem::path& path);
-
-enum class RowKind { measurement, detail, timeline, sampling, convergence, stability };
-
-/// By the header line: the kind whose needed columns are all there, else measurement. Throws trace::DataError
-/// for a text without a header.
-RowKind row_kind(std::string_view text, std::string_view file);
+std::vector<R> read_csv(const std::filesystem::path& path) {
+    return from_csv<R>(read_csv_text(path), path.string());
+}
 
 }  // namespace regather::results

@@ -2,11 +2,13 @@
 #pragma once
 #include <string>
 
-#include "results/row.h"
+#include "results/column.h"
 
 namespace regather::results {
 
 struct DetailRow {
+    static const RowKind& kind();
+
     std::string scene, ordering;
     Count tile, bins;  ///< As in Row.
     std::string parameters, layout, policy;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "trace/error.h"
+#include "trace/field.h"
 #include "trace/file.h"
 
 namespace regather::results {
@@ -36,6 +37,23 @@ void write_provenance(const std::filesystem::path& csv, const Provenance& proven
                                                  {"trace_parameters", trace_parameters}});
     // A command line may hold bytes that are no UTF-8: replaced, not thrown at the end of a long run.
     trace::write_whole(provenance_path(csv), out.dump(2) + "\n");
+}
+
+Origin read_origin(const std::filesystem::path& csv) {
+    const std::filesystem::path json = provenance_path(csv);
+    const trace::Document document(trace::read_file(json), json.string());
+    const trace::Field root = document.root();
+    Origin origin{root["git_revision"].text(), root["trace_checksum"].text(), {}, {}};
+    const trace::Field parameters = root["trace_parameters"];
+    if (!parameters.value().is_object() || !parameters.has("renderer")) return origin;
+    const trace::Field renderer = parameters["renderer"];
+    origin.scene = renderer["scene"].text();
+    origin.fingerprint = renderer["fingerprint"].text();
+    return origin;
+}
+
+void write_provenance(const std::filesystem::path& csv, const Provenance& provenance) {
+    write_provenance(csv, provenance, {});
 }
 
 }  // namespace regather::results

@@ -23,8 +23,21 @@ std::filesystem::path provenance_path(const std::filesystem::path& csv);
 /// ours to replace. And when `csv` bears the JSON's name, forced or not.
 void refuse_to_overwrite(const std::filesystem::path& csv, bool force);
 
+/// What a file of results says of the renderer that it came from.
+struct Origin {
+    std::string git_revision;
+    std::string trace_checksum;  ///< Of the capture; empty when no trace was read.
+    std::string scene,
+        fingerprint;  ///< Of the renderer on that scene: capture/fingerprint.h; empty: not told.
+};
+
+/// Of the JSON beside `csv`. Throws trace::DataError where there is none or it is none of ours.
+Origin read_origin(const std::filesystem::path& csv);
+
 /// Writes the JSON beside `csv`; `trace_parameters` goes in as it is (null when no trace was read).
 void write_provenance(const std::filesystem::path& csv, const Provenance& provenance,
                       const trace::Json& trace_parameters);
+/// Of rows that are of no trace.
+void write_provenance(const std::filesystem::path& csv, const Provenance& provenance);
 
 }  // namespace regather::results

@@ -2,19 +2,15 @@
 // cost. Tidy data: one row a measurement, counts with their unit in the name, a cell that does not apply
 // stays empty.
 #pragma once
-#include <cstdint>
-#include <iosfwd>
-#include <optional>
-#include <span>
 #include <string>
-#include <string_view>
-#include <vector>
+
+#include "results/column.h"
 
 namespace regather::results {
 
-using Count = std::optional<std::uint64_t>;
-
 struct Row {
+    static const RowKind& kind();
+
     std::string scene;
     Count frame;
     std::string ordering;    ///< "hilbert"; whole image when tile is empty.
@@ -36,17 +32,15 @@ struct Row {
     Count writebacks;                      ///< Dirty lines written back.
     Count onchip_bytes;                    ///< What the chip may buffer for reordering.
     Count buffer_traffic_bytes;            ///< What the reorder buffers add, through the same cache.
-    std::optional<std::int64_t>
-        net_benefit_bytes;  ///< Traffic of naive less net_traffic() of this row; benefit.h.
+    Signed net_benefit_bytes;              ///< Traffic of naive less net_traffic() of this row; benefit.h.
     Count set_sampling,
-        sampled_sets;  ///< One set of `set_sampling` was simulated, 1: every set; their number.
-    std::optional<double> misses_stderr;  ///< Standard error of `misses`, when sets were sampled ...
-    Count misses_low, misses_high;        ///< ... and its 95 % confidence interval.
+        sampled_sets;               ///< One set of `set_sampling` was simulated, 1: every set; their number.
+    Number misses_stderr;           ///< Standard error of `misses`, when sets were sampled ...
+    Count misses_low, misses_high;  ///< ... and its 95 % confidence interval.
     Count keys, key_ops, sort_passes, moved_records, buffered_bytes, reorder_bytes, recast_rays, stalls;
-    std::optional<double> order_seconds;  ///< Keys and sort, measured alone.
-    std::optional<double>
-        replay_seconds;  ///< One replay through all caches of its trial, beside as many others as there
-                         ///< are threads: the same in each of the trial's rows.
+    Number order_seconds;   ///< Keys and sort, measured alone.
+    Number replay_seconds;  ///< One replay through all caches of its trial, beside as many others as there
+                            ///< are threads: the same in each of the trial's rows.
 };
 
 }  // namespace regather::results

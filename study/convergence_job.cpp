@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "capture/capture.h"
+#include "capture/fingerprint.h"
 #include "capture/image_strip.h"
 #include "experiment/reference_job.h"
 #include "results/csv.h"
@@ -111,12 +112,14 @@ Converged run(const ConvergenceJob& job, const experiment::ProgressListener& pro
               const RowsWritten& written) {
     scenes::Scene scene = scenes::load_scene(job.scene);
     experiment::tell(job.note, scene.notes);
+    const std::string renderer = capture::fingerprint(scene);
     if (job.frame) scene.camera = scenes::camera_at(scene, *job.frame);
     const std::vector<Setting> ladder = ladder_of(scene, job.ladder);
     const fs::path csv = job.folder / "converge.csv", strips = job.folder / "strips";
     const bool has_rows = !job.force && fs::exists(csv);
     const trace::FolderLock lock(job.folder);
-    Converged result{scene.name, reference_of(scene, job, has_rows, progress), {}, 0, 0, {}, 0, 0, 0, csv};
+    Converged result{scene.name, renderer, reference_of(scene, job, has_rows, progress), {}, 0, 0, {}, 0, 0,
+                     0,          csv};
     const capture::ReferenceKey& key = result.reference.key;
     result.config.width = key.width;
     result.config.height = key.height;

@@ -29,6 +29,7 @@ struct ConvergenceJob {
 
 struct Converged {
     std::string scene;
+    std::string renderer;  ///< capture::fingerprint() of the scene.
     capture::Reference reference;
     ConvergenceConfig config;
     double mean_radiance = 0, reference_rmse = 0;  ///< Over the pixels that count.

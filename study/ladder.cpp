@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "results/convergence_row.h"
 #include "results/csv.h"
 #include "trace/error.h"
 

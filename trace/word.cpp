@@ -5,23 +5,27 @@
 
 namespace regather::trace {
 
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j < row.size(); ++j) {
+            const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+        }
+    }
+    return row.back();
+}
+
 std::vector<std::string_view> nearest_words(std::string_view word, std::span<const std::string_view> words) {
     word = word.substr(0, 64);  // No known word is that long: the tail tells nothing.
     std::vector<std::string_view> best;
     std::size_t best_distance = 0;
     for (const std::string_view candidate : words) {
-        std::vector<std::size_t> row(candidate.size() + 1);
-        for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-        for (std::size_t i = 1; i <= word.size(); ++i) {
-            std::size_t diagonal = row[0];
-            row[0] = i;
-            for (std::size_t j = 1; j < row.size(); ++j) {
-                const std::size_t substituted = diagonal + (word[i - 1] == candidate[j - 1] ? 0 : 1);
-                diagonal = row[j];
-                row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-            }
-        }
-        const std::size_t distance = row.back();
+        const std::size_t distance = edit_distance(word, candidate);
         if (!best.empty() && distance > best_distance) continue;
         if (!best.empty() && distance < best_distance) best.clear();
         best_distance = distance;

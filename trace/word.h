@@ -1,5 +1,6 @@
 // trace/word.h -- for messages about a word that nobody knows.
 #pragma once
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -7,8 +8,10 @@
 
 namespace regather::trace {
 
-/// The words closest to `word` by edit distance (insertions, deletions, substitutions; Levenshtein 1966);
-/// several when they tie, in their given order.
+/// Insertions, deletions and substitutions of bytes that make `b` of `a` (Levenshtein 1966).
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// The words closest to `word` by edit distance; several when they tie, in their given order.
 std::vector<std::string_view> nearest_words(std::string_view word, std::span<const std::string_view> words);
 
 /// `"a"`, `"a" or "b"`, `"a", "b" or "c"`.

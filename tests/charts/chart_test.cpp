@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "charts/plot.h"
+#include "charts/scale.h"
 #include "tests/charts/drawing.h"
 #include "tests/results/folder.h"
 #include "tests/results/rows.h"
@@ -37,22 +37,12 @@ std::vector<Row> figure() {
 }
 
 Chart compose(std::string_view name, const std::vector<Row>& rows, const ChartOptions& options = {}) {
-    return compose(name, Rows{rows, {}, {}, {}}, options);
+    return compose(name, results::Rows(rows), options);
 }
 
 /// The data block of the curve `label` in panel `panel`, its numbers as written.
 std::string data(const Chart& chart, const std::string& label, int panel = 0) {
-    const std::string text = script(chart, Picture::svg);
-    std::size_t at = 0;
-    for (;;) {
-        at = text.find("# '" + label + "'\n$curve_", at);
-        if (at == text.npos) return "absent";
-        const std::size_t name = text.find("$curve_", at);
-        const std::size_t start = text.find('\n', name) + 1;
-        if (text[name + 7] == static_cast<char>('0' + panel))
-            return text.substr(start, text.find("EOD", start) - start);
-        at = start;
-    }
+    return data_of(chart, "$line_" + std::to_string(panel), label);
 }
 
 TEST(Chart, TrafficByTileHoldsThePointsInGigabytes) {
@@ -72,14 +62,15 @@ TEST(Chart, TrafficByTileHoldsThePointsInGigabytes) {
     const std::string text = script(chart, Picture::svg);
     EXPECT_THAT(text, HasSubstr("'traffic from memory to cache [GB]'"));
     EXPECT_THAT(text, HasSubstr("'tile edge [pixels]'"));
-    EXPECT_THAT(text, HasSubstr("set xtics ('16' 16, '64' 64)"));
-    EXPECT_THAT(text, HasSubstr("set logscale x 2\nset logscale y 10\n"));
-    EXPECT_THAT(text, HasSubstr("0.012 with lines"));
-    EXPECT_THAT(text, HasSubstr("title 'Compulsory: each line once'"));
+    EXPECT_THAT(text, HasSubstr("('16' 16, '64' 64)"));
+    EXPECT_THAT(text, HasSubstr("set logscale x\n"));
+    EXPECT_THAT(text, HasSubstr("set logscale y\n"));
+    EXPECT_THAT(data(chart, "Compulsory: each line once"), HasSubstr(" 0.012\n"));
+    EXPECT_THAT(text, HasSubstr("set label 'Compulsory: each line once'"));
     EXPECT_THAT(chart.caption, testing::Eq("room · 1.00 k queries · 128 KiB cache, 128 B lines, 8-way LRU · "
                                            "left-balanced-kd · heap-20"));
     // The legend runs from the top of the picture downwards.
-    const auto entry = [&](const char* label) { return text.find(std::string("title '") + label); };
+    const auto entry = [&](const char* label) { return text.find(std::string("set label '") + label); };
     EXPECT_LT(entry("Naive"), entry("Direction bins 16×16"));
     EXPECT_LT(entry("Direction bins 16×16"), entry("Hilbert'"));
     EXPECT_LT(entry("Hilbert'"), entry("Hilbert, whole image"));
@@ -89,7 +80,7 @@ TEST(Chart, TrafficByCacheHoldsTilesNearSixteen) {
     const Chart chart = compose("traffic-by-cache", figure());
     EXPECT_EQ(data(chart, "Hilbert, 16×16 tiles"), "65536 14\n131072 11\n");
     EXPECT_EQ(data(chart, "Naive"), "131072 211\n");
-    EXPECT_THAT(script(chart, Picture::svg), HasSubstr("set xtics ('64' 65536, '128' 131072)"));
+    EXPECT_THAT(script(chart, Picture::svg), HasSubstr("('64' 65536, '128' 131072)"));
     EXPECT_THAT(script(chart, Picture::svg), HasSubstr("'cache size [KiB]'"));
     EXPECT_THAT(chart.caption, HasSubstr("· 128 B lines, 8-way LRU ·"));
 }
@@ -112,7 +103,7 @@ TEST(Chart, CostByTileHasOperationsPerQueryAboveBufferedBytes) {
     EXPECT_THAT(text, HasSubstr("'Nothing buffered: Naive'"));
     EXPECT_THAT(text, HasSubstr("'key operations per query'"));
     EXPECT_THAT(text, HasSubstr("'10 kB' 10000"));
-    EXPECT_THAT(text, Not(HasSubstr("title 'Naive'")));
+    EXPECT_THAT(text, Not(HasSubstr("set label 'Naive'")));
 }
 
 TEST(Chart, CostByBinsRunsOverDirectionBinnedOrderingsOnly) {
@@ -166,7 +157,7 @@ TEST(Chart, TicksAreRoundAndEnclose) {
 
 TEST(Chart, EveryKindBecomesTwoPicturesWithItsLabels) {
     const Folder folder;
-    const auto drawn = write_charts(folder.path(), figure(), {}, {});
+    const auto drawn = write_charts(folder.path(), Rows(figure()), {}, {});
     ASSERT_EQ(drawn.size(), 7u);
     EXPECT_EQ(drawn[4].skipped, "no row has compulsory, capacity and conflict");
     EXPECT_EQ(drawn[5].kind, "net-benefit");

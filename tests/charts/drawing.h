@@ -6,7 +6,7 @@
 
 namespace regather::charts {
 
-inline Chart compose(std::string_view name, const Rows& rows, const ChartOptions& options = {}) {
+inline Chart compose(std::string_view name, const results::Rows& rows, const ChartOptions& options = {}) {
     const ChartKind& kind = chart_kind(name);
     return kind.compose(kind, rows, options);
 }

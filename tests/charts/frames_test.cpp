@@ -29,9 +29,9 @@ std::vector<Row> walk() {
 
 TEST(Frames, ASweepShowsTheMedianAndTheRange) {
     const std::vector<Row> rows = walk();
-    const Chart chart = compose("traffic-by-tile", {rows, {}, {}, {}});
+    const Chart chart = compose("traffic-by-tile", Rows(rows));
     ASSERT_EQ(chart.skipped, "");
-    EXPECT_EQ(data_of(chart, "$curve_0", "Hilbert"), "8 20\n16 6.5\n");
+    EXPECT_EQ(data_of(chart, "$line_0", "Hilbert"), "8 20\n16 6.5\n");
     EXPECT_THAT(chart.commands, HasSubstr("8 20 10 30\n16 6.5 4 9\n"));
     EXPECT_THAT(chart.commands, HasSubstr(" 60 50 70\n"));  // naive's level line
     EXPECT_THAT(chart.caption, HasSubstr("frames 0:15:5, median and range"));
@@ -40,7 +40,7 @@ TEST(Frames, ASweepShowsTheMedianAndTheRange) {
 TEST(Frames, OneFrameHasNoBars) {
     const std::vector<Row> rows = {at_frame("hilbert", 8, 3, 2'000'000),
                                    at_frame("hilbert", 16, 3, 1'000'000)};
-    const Chart chart = compose("traffic-by-tile", {rows, {}, {}, {}});
+    const Chart chart = compose("traffic-by-tile", Rows(rows));
     EXPECT_THAT(chart.commands, Not(HasSubstr("yerrorbars")));
     EXPECT_THAT(chart.caption, Not(HasSubstr("frames")));
 }
@@ -48,21 +48,20 @@ TEST(Frames, OneFrameHasNoBars) {
 TEST(Frames, TwoRowsOfOneFrameStillContradictEachOther) {
     std::vector<Row> rows = walk();
     rows.push_back(at_frame("hilbert", 8, 5, 21'000'000));
-    EXPECT_THROW(compose("traffic-by-tile", {rows, {}, {}, {}}), trace::DataError);
+    EXPECT_THROW(compose("traffic-by-tile", Rows(rows)), trace::DataError);
 }
 
 TEST(Frames, UnevenFramesAreNamedOneByOne) {
     std::vector<Row> rows = walk();
     rows.push_back(at_frame("hilbert", 8, 11, 20'000'000));
-    EXPECT_THAT(compose("traffic-by-tile", {rows, {}, {}, {}}).caption,
-                HasSubstr("frames 0, 5, 10, 11, median"));
+    EXPECT_THAT(compose("traffic-by-tile", Rows(rows)).caption, HasSubstr("frames 0, 5, 10, 11, median"));
 }
 
 TEST(Frames, AChartAlongThePathHasACurveAnOrdering) {
     const std::vector<Row> rows = walk();
     ChartOptions options;
     options.tile = 8;
-    const Chart chart = compose("traffic-by-frame", {rows, {}, {}, {}}, options);
+    const Chart chart = compose("traffic-by-frame", Rows(rows), options);
     ASSERT_EQ(chart.skipped, "");
     EXPECT_EQ(data_of(chart, "$line_0", "Hilbert, 8×8 tiles"), "0 10\n5 20\n10 30\n");
     EXPECT_EQ(data_of(chart, "$line_0", "Naive"), "0 50\n5 70\n");
@@ -70,7 +69,7 @@ TEST(Frames, AChartAlongThePathHasACurveAnOrdering) {
 
 TEST(Frames, AStandingCameraHasNoPath) {
     const std::vector<Row> rows = {made_row("naive", {}, {}, 5)};
-    EXPECT_THAT(compose("traffic-by-frame", {rows, {}, {}, {}}).skipped,
+    EXPECT_THAT(compose("traffic-by-frame", Rows(rows)).skipped,
                 HasSubstr("needs at least 2 frames; found 0"));
 }
 

@@ -17,7 +17,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 Rows only(const std::vector<Row>& rows) {
-    return {rows, {}, {}, {}};
+    return Rows(rows);
 }
 
 Row classed(std::string ordering, Count tile, std::uint64_t compulsory, std::uint64_t capacity,
@@ -127,7 +127,7 @@ TEST(TrafficByDepth, HasTrafficAboveOverfetch) {
                                    level("naive", 1, 0, 0),      level("naive", {}, 99968, 10),
                                    level("hilbert", 0, 256, 0),  level("hilbert", 1, 512, 128)};
     rows.back().tile = rows[4].tile = 16;
-    const Chart chart = compose("traffic-by-depth", {{}, rows, {}, {}});
+    const Chart chart = compose("traffic-by-depth", Rows(rows));
     EXPECT_EQ(data_of(chart, "$line_0", "Naive"), "0 128\n2 1280\n");
     EXPECT_EQ(data_of(chart, "$line_1", "Naive"), "0 1\n2 6.4\n");
     EXPECT_EQ(data_of(chart, "$line_0", "Hilbert, 16×16 tiles"), "0 256\n1 512\n");
@@ -138,7 +138,7 @@ TEST(TrafficByDepth, HasTrafficAboveOverfetch) {
               "needs rows by region and tree depth, with traffic_bytes");
     ChartOptions other;
     other.cache = Geometry{4096, 64, 0};
-    EXPECT_EQ(compose("traffic-by-depth", {{}, rows, {}, {}}, other).skipped,
+    EXPECT_EQ(compose("traffic-by-depth", Rows(rows), other).skipped,
               "no row has the cache 4 KiB, 64 B lines, fully associative");
 }
 
@@ -159,7 +159,7 @@ TEST(Timeline, HasMissesPerQueryAtTheMiddleOfEachSlice) {
     const std::vector<TimelineRow> rows = {slice("naive", 40, 60, 600), slice("naive", 0, 40, 100),
                                            slice("morton", 0, 50, 50),  slice("morton", 50, 25, 0),
                                            slice("morton", 75, 25, 10), slice("hilbert", 0, 100, 0)};
-    const Chart chart = compose("timeline", {{}, {}, rows, {}});
+    const Chart chart = compose("timeline", Rows(rows));
     EXPECT_EQ(data_of(chart, "$line_0", "Naive"), "20 2.5\n70 10\n");
     // No place for 0 on a log axis: the curve breaks off there.
     EXPECT_EQ(data_of(chart, "$line_0", "Morton, whole image"), "25 1\n\n87.5 0.4\n");
@@ -190,7 +190,7 @@ TEST(SamplingError, HasErrorInPercentAgainstSecondsAndTheNominalLine) {
         sampled("naive", 2, 990, 20, true),           sampled("naive", 4, 980, 10, false),
         sampled("hilbert:tile=16", 2, 1004, 8, true), sampled("hilbert:tile=64", 2, 1003, 7, true),
         sampled("hilbert:tile=64", 4, 1000, 7, true)};
-    const Chart chart = compose("sampling-error", {{}, {}, {}, rows});
+    const Chart chart = compose("sampling-error", Rows(rows));
     EXPECT_EQ(data_of(chart, "$line_0", "Naive"), "20 1\n10 2\n");
     EXPECT_EQ(data_of(chart, "$line_0", "Hilbert, 16×16 tiles"), "8 0.4\n");
     EXPECT_EQ(data_of(chart, "$line_0", "Hilbert, 64×64 tiles"), "7 0.3\n");
@@ -201,8 +201,7 @@ TEST(SamplingError, HasErrorInPercentAgainstSecondsAndTheNominalLine) {
     EXPECT_THAT(text, Not(HasSubstr("at 8,0.4 ")));  // of many curves only the uppermost bears the rates
     EXPECT_THAT(text, HasSubstr("'RMS error of misses [%]'"));
     EXPECT_EQ(chart.caption, "room · 1/4 ... 1/2 of the sets");
-    EXPECT_THAT(compose("sampling-error", {{}, {}, {}, std::span(rows).first(1)}).skipped,
-                HasSubstr("above 0"));
+    EXPECT_THAT(compose("sampling-error", Rows(std::vector{rows[0]})).skipped, HasSubstr("above 0"));
 }
 
 TEST(Figure, ScalesEncloseTheirValues) {
@@ -227,7 +226,7 @@ TEST(Chart, TheKindsThatAreWantedAreThoseWithRows) {
         for (const ChartKind* kind : kinds) out.push_back(kind->name);
         return out;
     };
-    EXPECT_THAT(names(wanted_kinds({{}, details, {}, {}}, {})), ElementsAre("traffic-by-depth"));
+    EXPECT_THAT(names(wanted_kinds(Rows(details), {})), ElementsAre("traffic-by-depth"));
     EXPECT_THAT(names(wanted_kinds(only(rows), {})),
                 ElementsAre("traffic-by-tile", "traffic-by-cache", "cost-by-tile", "cost-by-bins",
                             "misses-by-class", "net-benefit", "traffic-by-frame"));
@@ -243,14 +242,18 @@ TEST(Chart, EveryFurtherKindBecomesAPictureWhateverTheNames) {
     const std::vector<DetailRow> details = {level(name, 0, 128, 128), level(name, 1, 256, 128)};
     const std::vector<TimelineRow> slices = {slice(name, 0, 10, 10), slice(name, 10, 10, 20)};
     const std::vector<SamplingRow> runs = {sampled(name, 2, 990, 2, true), sampled(name, 4, 980, 1, true)};
+    Rows all(rows);
+    all.of<DetailRow>() = details;
+    all.of<TimelineRow>() = slices;
+    all.of<SamplingRow>() = runs;
     for (const char* kind :
          {"misses-by-class", "net-benefit", "traffic-by-depth", "timeline", "sampling-error"}) {
-        const Chart chart = compose(kind, {rows, details, slices, runs});
+        const Chart chart = compose(kind, all);
         ASSERT_EQ(chart.skipped, "") << kind;
         EXPECT_EQ(chart.width, 440u);  // a column of a paper
         const std::string svg = render(chart, Picture::svg);
         EXPECT_THAT(svg, HasSubstr("it’s `id` \\ {/x} &lt;b>&amp; exit 3")) << kind;
-        EXPECT_EQ(svg, render(compose(kind, {rows, details, slices, runs}), Picture::svg));
+        EXPECT_EQ(svg, render(compose(kind, all), Picture::svg));
         EXPECT_EQ(render(chart, Picture::png).substr(0, 4), "\x89PNG");
     }
 }

@@ -30,7 +30,7 @@ std::vector<std::uint64_t> traffic(const Curve& curve) {
 TEST(Series, RunsAlongTilesAndKeepsWhatHasNoneLevel) {
     const std::vector<Row> rows = {made_row("naive", {}, {}, 900), made_row("hilbert", 32, {}, 50),
                                    made_row("hilbert", 8, {}, 100), made_row("hilbert", {}, {}, 5)};
-    const auto all = curves(rows, Axis::tile, {});
+    const auto all = curves(rows, Along::tile, {});
     ASSERT_THAT(labels(all), ElementsAre("Naive", "Hilbert", "Hilbert, whole image"));
     EXPECT_TRUE(all[0].flat);
     EXPECT_FALSE(all[1].flat);
@@ -45,18 +45,18 @@ TEST(Series, HoldsTheOtherParametersAtTheNearestValueMeasured) {
         for (const std::uint64_t bins : {2, 8})
             rows.push_back(made_row("direction-binned", tile, bins, tile * 100 + bins));
     // 32 is nearer to 16 by ratio than 4; 8 is the nearest number of bins.
-    auto all = curves(rows, Axis::tile, {});
+    auto all = curves(rows, Along::tile, {});
     ASSERT_THAT(labels(all), ElementsAre("Direction bins 8×8"));
     EXPECT_THAT(traffic(all[0]), ElementsAre(408, 3208, 6408));
-    all = curves(rows, Axis::bins, {});
+    all = curves(rows, Along::bins, {});
     ASSERT_THAT(labels(all), ElementsAre("Direction bins, 32×32 tiles"));
     EXPECT_THAT(traffic(all[0]), ElementsAre(3202, 3208));
-    all = curves(rows, Axis::cache, {});
+    all = curves(rows, Along::cache, {});
     ASSERT_THAT(labels(all), ElementsAre("Direction bins 8×8, 32×32 tiles"));
     EXPECT_THAT(traffic(all[0]), ElementsAre(3208));
     // 8 and 32 are equally far from 16: the smaller one.
     const std::vector<Row> tie = {made_row("hilbert", 32, {}, 1), made_row("hilbert", 8, {}, 2)};
-    EXPECT_THAT(traffic(curves(tie, Axis::cache, {})[0]), ElementsAre(2));
+    EXPECT_THAT(traffic(curves(tie, Along::cache, {})[0]), ElementsAre(2));
 }
 
 TEST(Series, TakesOnlyRowsOfTheCacheAndOfTheAxis) {
@@ -66,19 +66,19 @@ TEST(Series, TakesOnlyRowsOfTheCacheAndOfTheAxis) {
     rows[1].cache_bytes = 4096;
     rows[2].ways = 4;
     rows[3].traffic_bytes.reset();
-    const auto by_tile = curves(rows, Axis::tile, {});
+    const auto by_tile = curves(rows, Along::tile, {});
     ASSERT_THAT(labels(by_tile), ElementsAre("Hilbert"));
     EXPECT_THAT(traffic(by_tile[0]), ElementsAre(1));
     rows[1].tile = 8;
-    const auto by_cache = curves(rows, Axis::cache, {});
+    const auto by_cache = curves(rows, Along::cache, {});
     ASSERT_THAT(labels(by_cache), ElementsAre("Hilbert, 8×8 tiles"));
     EXPECT_THAT(traffic(by_cache[0]), ElementsAre(2, 1));
-    EXPECT_TRUE(curves(rows, Axis::bins, {}).empty());
+    EXPECT_TRUE(curves(rows, Along::bins, {}).empty());
 
     std::vector<Row> binned = {made_row("direction-binned", 16, 4, 1),
                                made_row("direction-binned", 16, 8, 2)};
     binned[1].cache_bytes = 4096;
-    EXPECT_THAT(traffic(curves(binned, Axis::bins, {})[0]), ElementsAre(1));
+    EXPECT_THAT(traffic(curves(binned, Along::bins, {})[0]), ElementsAre(1));
 }
 
 TEST(Series, NamesOnlyWhatDiffers) {
@@ -88,12 +88,12 @@ TEST(Series, NamesOnlyWhatDiffers) {
         with_parameters(made_row("hilbert", 8, {}, 3), "hilbert:tile=8,bits=16"),
         with_parameters(made_row("hilbert", {}, {}, 4), "hilbert:bits=21"),
     };
-    EXPECT_THAT(labels(curves(rows, Axis::tile, {})),
+    EXPECT_THAT(labels(curves(rows, Along::tile, {})),
                 ElementsAre("Tiled, rows=left-to-right", "Tiled, rows=alternating", "Hilbert",
                             "Hilbert, whole image"));
     std::vector<Row> layouts = {made_row("naive", {}, {}, 1), made_row("naive", {}, {}, 2)};
     layouts[1].layout = "veb-20";
-    const auto all = curves(layouts, Axis::tile, {});
+    const auto all = curves(layouts, Along::tile, {});
     EXPECT_THAT(labels(all), ElementsAre("Naive, heap-20", "Naive, veb-20"));
     EXPECT_NE(all[0].variant, all[1].variant);
 }
@@ -104,17 +104,17 @@ TEST(Series, APassForEachBinIsNoParameterOfItsOwn) {
         with_parameters(made_row("direction-binned", 16, 8, 2), "direction-binned:tile=16,bins=8,passes=64"),
         with_parameters(made_row("direction-binned", 16, 8, 3), "direction-binned:tile=16,bins=8,passes=16"),
     };
-    EXPECT_THAT(labels(curves(rows, Axis::bins, {})),
+    EXPECT_THAT(labels(curves(rows, Along::bins, {})),
                 ElementsAre("Direction bins, 16×16 tiles", "Direction bins, 16×16 tiles, passes=16"));
 }
 
 TEST(Series, ARepeatedRowIsOneAndAContradictionIsRefused) {
     std::vector<Row> rows = {made_row("hilbert", 8, {}, 7), made_row("hilbert", 8, {}, 7)};
-    EXPECT_THAT(traffic(curves(rows, Axis::tile, {})[0]), ElementsAre(7));
+    EXPECT_THAT(traffic(curves(rows, Along::tile, {})[0]), ElementsAre(7));
     rows[1].traffic_bytes = 8;
-    EXPECT_THROW(curves(rows, Axis::tile, {}), trace::DataError);
+    EXPECT_THROW(curves(rows, Along::tile, {}), trace::DataError);
     rows = {made_row("naive", {}, {}, 7), made_row("naive", {}, {}, 8)};
-    EXPECT_THROW(curves(rows, Axis::tile, {}), trace::DataError);
+    EXPECT_THROW(curves(rows, Along::tile, {}), trace::DataError);
 }
 
 TEST(Series, NoTwoOrderingsLookAlike) {
@@ -125,7 +125,7 @@ TEST(Series, NoTwoOrderingsLookAlike) {
         EXPECT_TRUE(markers.insert(style.marker).second) << style.ordering;
     }
     const std::vector<Row> strangers = {made_row("mine", {}, {}, 1), made_row("yours", {}, {}, 2)};
-    const auto all = curves(strangers, Axis::tile, {});
+    const auto all = curves(strangers, Along::tile, {});
     EXPECT_THAT(labels(all), ElementsAre("mine", "yours"));
     EXPECT_NE(all[0].colour, all[1].colour);
     EXPECT_TRUE(colours.insert(all[0].colour).second);

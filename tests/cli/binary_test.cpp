@@ -105,8 +105,9 @@ TEST(Cachesim, AnAddressTraceBecomesATable) {
     EXPECT_EQ(
         expect_done(words).out,
         "policy,size_bytes,line_bytes,ways,accesses,hits,misses,compulsory,capacity,conflict,writebacks,"
-        "writes_through,traffic_bytes\n"
-        "lru,128,64,1,4,1,3,3,0,0,0,0,192\nlru,128,64,full,4,1,3,3,0,0,0,0,192\n");
+        "writes_through,traffic_bytes,write,write_miss,index,seed\n"
+        "lru,128,64,1,4,1,3,3,0,0,0,0,192,back,allocate,modulo,\n"
+        "lru,128,64,full,4,1,3,3,0,0,0,0,192,back,allocate,modulo,\n");
     write(scratch / "notes.din", "0 0\r1 40\r0 4 x\r");
     const Outcome noted = regather(
         {"cachesim", (scratch / "notes.din").string(), "--size", "1K", "--line", "64", "--ways", "1"});

@@ -65,7 +65,7 @@ TEST(Race, ARowForEveryOrderingOnEveryStructure) {
     EXPECT_THAT(rows[0], ElementsAre("scene", "structure", "ordering", "tile", "bins", "parameters",
                                      "queries", "photons", "k", "threads", "repeats", "order_seconds_median",
                                      "search_seconds_median", "search_seconds_min", "search_seconds_max",
-                                     "search_seconds_mad", "net_gain_seconds"));
+                                     "search_seconds_mad", "net_gain_seconds", "radius", "gathered"));
     const std::string queries = std::to_string(trace::TraceReader(captured_box() / "trace").info().queries);
     const std::string orderings[] = {"hilbert", "naive", "direction-binned", "kd-leaf"};
     for (std::size_t r = 1; r < rows.size(); ++r) {
@@ -120,6 +120,8 @@ TEST(Race, APartOfTheQueriesAnotherKThreadsAndCopiedPositions) {
         EXPECT_EQ(rows[r][6], "501");
         EXPECT_EQ(rows[r][8], "5000");
         EXPECT_EQ(rows[r][9], "3");
+        EXPECT_EQ(rows[r][17], "");   // unlimited, as captured
+        EXPECT_EQ(rows[r][18], "1");  // --gathered
         EXPECT_EQ(rows[r][1], r % 2 == 1 ? "bucketed" : "left-balanced");
     }
 }
