@@ -3,6 +3,8 @@
 
 #include "reorder/catalogue.h"
 #include "results/csv.h"
+#include "results/detail_row.h"
+#include "results/timeline_row.h"
 #include "tests/cli/expect.h"
 #include "trace/folder.h"
 

@@ -1,5 +1,6 @@
 // `regather sampling`: sampled replays beside the exact one.
 #include "results/csv.h"
+#include "results/sampling_row.h"
 #include "tests/cli/expect.h"
 
 namespace regather::cli {

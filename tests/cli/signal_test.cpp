@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include "cli/interruption.h"
+#include "results/convergence_row.h"
 #include "results/csv.h"
 #include "tests/cli/expect.h"
 #include "trace/folder.h"

@@ -1,7 +1,9 @@
 // The commands that say whether pictures can be trusted: reference, converge, stability; and heatmap, frames
 // and layers of captures.
 #include "capture/image.h"
+#include "results/convergence_row.h"
 #include "results/csv.h"
+#include "results/stability_row.h"
 #include "tests/cli/expect.h"
 #include "trace/folder.h"
 
