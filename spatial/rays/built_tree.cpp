@@ -45,7 +45,11 @@ void keep_message(void* kept, RTCError, const char* message) {
     if (text.empty()) text = message ? message : "no message";
 }
 
-void complete(BuiltNode& node, std::span<const trace::Bounds3> boxes) {
+/// Fills what Embree leaves open.
+void complete(BuiltNode& node, std::span<const trace::Bounds3> boxes, std::uint32_t depth) {
+    if (depth > BuiltTree::max_depth)
+        throw std::runtime_error(
+            fmt::format("Embree: rtcBuildBVH made a leaf deeper than {}", BuiltTree::max_depth));
     if (node.child_count == 0) {
         std::sort(node.numbers.begin(), node.numbers.end());
         node.lowest = node.numbers[0];
@@ -55,7 +59,7 @@ void complete(BuiltNode& node, std::span<const trace::Bounds3> boxes) {
     node.lowest = 0xffffffffu;
     for (std::uint32_t i = 0; i < node.child_count; ++i) {
         BuiltNode& child = *node.children[i];
-        complete(child, boxes);
+        complete(child, boxes, depth + 1);
         node.bounds.include(child.bounds);
         node.lowest = std::min(node.lowest, child.lowest);
     }
@@ -111,7 +115,7 @@ BuiltTree::BuiltTree(std::span<const trace::Bounds3> boxes, const BuildConfig& c
     tbb::task_arena(1).execute([&] { root_ = static_cast<BuiltNode*>(rtcBuildBVH(&arguments)); });
     if (!root_ || !embree_->message.empty())
         throw std::runtime_error(fmt::format("Embree: rtcBuildBVH failed: {}", embree_->message));
-    complete(*root_, boxes);
+    complete(*root_, boxes, 0);
 }
 
 BuiltTree::~BuiltTree() = default;

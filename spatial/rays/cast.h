@@ -6,7 +6,7 @@
 // (Woop, Benthin, Wald: "Watertight Ray/Triangle Intersection", JCGT 2013): corners are sheared so that the
 // ray runs along an axis, rounded to floats, and the signs of the edge functions of these floats are exact.
 // So a ray through a shared edge or corner never passes between triangles. The boxes' test is wider than all
-// rounding (by an absolute amount for the shear, and by Ize, "Robust BVH Ray Traversal", JCGT 2013), so the
+// rounding (Ize, "Robust BVH Ray Traversal", JCGT 2013, with an absolute margin that covers the shear, too), so the
 // hierarchy and the order of the traversal have no say in what is hit: of equal distances the smaller
 // triangle number wins. Lengths in scene units, distances in lengths of the ray's direction.
 #pragma once
@@ -67,38 +67,38 @@ public:
         shear_first_ = _mm256_set1_ps(d[first_] / d[along_]);
         shear_second_ = _mm256_set1_ps(d[second_] / d[along_]);
 
-        // A sheared corner is off by at most 5 x 2^-24 of the sum of two differences, each `reach` at most;
-        // the rest is for the rounding of origin and padding.
+        // Boxes are widened by more than all rounding. With the farthest plane at `reach`, a sheared corner
+        // is off by at most 5 x 2^-24 of the sum of two differences, 10 x 2^-24 x reach; entry and exit round
+        // four times, and the distance twice: 6 x 2^-24 x reach. The rest is for origin and padding
+        // themselves.
         float reach = 0, farthest_out = 0;
         for (int axis = 0; axis < 3; ++axis) {
             reach = std::max(
                 {reach, std::fabs(bounds.min[axis] - o[axis]), std::fabs(bounds.max[axis] - o[axis])});
             farthest_out = std::max(farthest_out, std::fabs(o[axis]));
         }
-        const float pad = reach * 0x1p-20f + farthest_out * 0x1p-22f, least = std::fabs(d[along_]) * 0x1p-80f;
+        const float pad = reach * 0x1p-19f + farthest_out * 0x1p-22f;
         for (int axis = 0; axis < 3; ++axis) {
             const bool down = std::signbit(d[axis]);
-            const float inverse = 1 / std::copysign(std::max(std::fabs(d[axis]), least), d[axis]);
             lower_is_near_[axis] = !down;
             near_origin_[axis] = _mm256_set1_ps(down ? o[axis] - pad : o[axis] + pad);
             far_origin_[axis] = _mm256_set1_ps(down ? o[axis] + pad : o[axis] - pad);
-            // Difference, quotient and product round once each: 3 x 2^-24, and as much on the other side.
-            near_inverse_[axis] = _mm256_set1_ps(inverse * (1 - 0x1p-21f));
-            far_inverse_[axis] = _mm256_set1_ps(inverse * (1 + 0x1p-21f));
+            inverse_[axis] = _mm256_set1_ps(1 / d[axis]);
         }
     }
 
-    /// A bit for each child whose box has a part of the ray from `nearest` to `farthest`, and where it
-    /// enters it. Where 0 meets infinity, the axis does not exclude the box.
+    /// A bit for each child whose box has a part of the ray from `nearest` to `farthest`, and where the ray
+    /// enters it. An axis along which the ray does not move gives infinities; where 0 meets one of them, it
+    /// excludes nothing, as minimum and maximum keep their second operand.
     unsigned enter(const RayBvh::Node& node, float nearest, float farthest, float* entry) const {
         __m256 in = _mm256_set1_ps(nearest), out = _mm256_set1_ps(farthest);
         for (int axis = 0; axis < 3; ++axis) {
             const __m256 near_plane = _mm256_load_ps(node.planes[axis][!lower_is_near_[axis]]),
                          far_plane = _mm256_load_ps(node.planes[axis][lower_is_near_[axis]]);
-            in = _mm256_max_ps(
-                _mm256_mul_ps(_mm256_sub_ps(near_plane, near_origin_[axis]), near_inverse_[axis]), in);
-            out = _mm256_min_ps(
-                _mm256_mul_ps(_mm256_sub_ps(far_plane, far_origin_[axis]), far_inverse_[axis]), out);
+            in = _mm256_max_ps(_mm256_mul_ps(_mm256_sub_ps(near_plane, near_origin_[axis]), inverse_[axis]),
+                               in);
+            out = _mm256_min_ps(_mm256_mul_ps(_mm256_sub_ps(far_plane, far_origin_[axis]), inverse_[axis]),
+                                out);
         }
         _mm256_store_ps(entry, in);
         return unsigned(_mm256_movemask_ps(_mm256_cmp_ps(in, out, _CMP_LE_OQ)));
@@ -146,7 +146,8 @@ public:
             const double sum = weights[0] + weights[1] + weights[2];
             const bool up = weights[0] >= 0 && weights[1] >= 0 && weights[2] >= 0,
                        down = weights[0] <= 0 && weights[1] <= 0 && weights[2] <= 0;
-            if (!(up || down) || sum == 0) continue;
+            if (!(up || down)) continue;
+            // Not a number when all weights are 0: the triangle is edge-on.
             const double distance =
                 (weights[0] * double(along[0][lane]) + weights[1] * double(along[1][lane]) +
                  weights[2] * double(along[2][lane])) /
@@ -157,7 +158,7 @@ public:
     }
 
 private:
-    __m256 near_origin_[3], far_origin_[3], near_inverse_[3], far_inverse_[3];
+    __m256 near_origin_[3], far_origin_[3], inverse_[3];
     __m256 origin_along_, origin_first_, origin_second_, shear_first_, shear_second_;
     double length_;
     int along_, first_, second_;

@@ -1,7 +1,9 @@
 #include "capture/ray_caster.h"
 
 #include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -209,6 +211,21 @@ TEST(RayCaster, NoRaySlipsThroughAVertex) {
             EXPECT_TRUE(caster.closest(from, normalize(-from))) << i;
         }
     }
+}
+
+// Embree advises programs to flush denormals to zero; neither it nor TBB may do so behind our back, as
+// results would then depend on which thread made them.
+TEST(RayCaster, NoThreadFlushesDenormals) {
+    const Scene scene = square();
+    const RayCaster caster(scene);
+    ASSERT_TRUE(caster.occluded({0, 0.2f, 1}, {0, 0, -1}, 10));
+    std::atomic<int> flushed{0};
+    tbb::parallel_for(0, 1000, [&](int i) {
+        volatile float tiny = 0x1p-130f * static_cast<float>(1 + i);
+        tiny = tiny * 0.5f;
+        flushed += tiny == 0;
+    });
+    EXPECT_EQ(flushed, 0);
 }
 
 TEST(Nonfinite, ValuesAreReplacedCountedAndTold) {

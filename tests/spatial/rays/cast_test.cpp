@@ -500,6 +500,7 @@ TEST(Cast, AListenerHearsEachStepOnceAfterItsParent) {
             }
         }
         if (met.found()) {
+            EXPECT_TRUE(shadow.steps.back() & RayBvh::leaf_bit);
             const auto holds = [&](std::uint32_t step) {
                 const RayBvh::Block& block = tree.blocks()[step & ~RayBvh::leaf_bit];
                 return (step & RayBvh::leaf_bit) &&
