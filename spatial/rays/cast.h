@@ -6,8 +6,8 @@
 // (Woop, Benthin, Wald: "Watertight Ray/Triangle Intersection", JCGT 2013): corners are sheared so that the
 // ray runs along an axis, rounded to floats, and the signs of the edge functions of these floats are exact.
 // So a ray through a shared edge or corner never passes between triangles. The boxes' test is wider than all
-// rounding (Ize, "Robust BVH Ray Traversal", JCGT 2013, with an absolute margin that covers the shear, too), so the
-// hierarchy and the order of the traversal have no say in what is hit: of equal distances the smaller
+// rounding (Ize, "Robust BVH Ray Traversal", JCGT 2013, with an absolute margin that covers the shear, too),
+// so the hierarchy and the order of the traversal have no say in what is hit: of equal distances the smaller
 // triangle number wins. Lengths in scene units, distances in lengths of the ray's direction.
 #pragma once
 #include <immintrin.h>
