@@ -154,7 +154,7 @@ TEST(Npy, DamageIsRefusedWithTheFileWhatWasFoundAndWhatWasExpected) {
     overwrite(path, 10,
               "{'descr': '<u4', 'fortran_order': False, 'shape': (3,\x1b\n),}                       ");
     refused("found shape (3,\\x1b\\n), expected");
-    overwrite(path, 10, "{'descr': '\x1b2J', 'fortran_order': False, 'shape': (3,),}                       ");
+    overwrite(path, 10, "{'descr': '\x1bz', 'fortran_order': False, 'shape': (3,),}                       ");
     refused("found type '\\x1bz', expected");
 }
 
