@@ -16,6 +16,7 @@
 #include "cachesim/din_source.h"
 #include "trace/error.h"
 #include "trace/npy.h"
+#include "trace/text.h"
 
 namespace regather::cachesim {
 
@@ -72,9 +73,9 @@ private:
             readable += (readable.empty() ? "" : " or ") + type->readable;
         const std::size_t at = head.find("'descr':");
         const std::size_t from = at == std::string::npos ? head.size() : std::min(at + 9, head.size());
-        throw trace::DataError(fmt::format("{}: found type {}, expected {}, little-endian", name.string(),
-                                           head.substr(from, head.find_first_of(",}", from) - from),
-                                           readable));
+        throw trace::DataError(
+            fmt::format("{}: found type {}, expected {}, little-endian", name.string(),
+                        trace::shown(head.substr(from, head.find_first_of(",}", from) - from)), readable));
     }
 
     path name_;

@@ -56,7 +56,7 @@ const Bias measures[] = {
          return bias_point(x, row.bias_squared, row.bias_squared_stderr, row.mean_radiance.value_or(0));
      },
      root_of_radius},
-    {"std. deviation, interior [%]",
+    {"deviation, interior [%]",
      [](const results::ConvergenceRow& row, double x) -> std::optional<Point> {
          const double mean = row.interior_mean_radiance.value_or(0);
          if (row.interior_variance.value_or(0) <= 0 || mean <= 0) return {};

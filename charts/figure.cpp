@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 #include "charts/gnuplot.h"
 #include "charts/lettering.h"
@@ -13,7 +14,8 @@ namespace regather::charts {
 namespace {
 
 // All in SVG pixels.
-constexpr double edge = 10, title_size = 15, small_size = 11, legend_size = 12, label_size = 13;
+constexpr double edge = 10, title_size = 15, small_size = 11, point_size = 10, legend_size = 12,
+                 label_size = 13;
 constexpr double title_at = 22, caption_at = 42, small_line = 15, label_line = 16;
 constexpr double above = 18, between = 22, across_room = 42, tick_room = 14, sample = 30;
 constexpr double gap_to_text = 11, gap_of_keys = 12, legend_line = 18, remark_lift = 16;
@@ -194,17 +196,35 @@ private:
             p = end;
         }
         legend_top_ = y;
-        double longest = 0;
-        for (const Key& key : keys_) longest = std::max(longest, text_width(key.label, legend_size));
-        const double room = figure_.width - 2 * edge;
-        columns_ = static_cast<std::size_t>(
-            std::clamp(room / (sample + gap_to_text + longest + gap_of_keys), 1.0, 4.0));
-        columns_ = std::max<std::size_t>(1, std::min(columns_, keys_.size()));
-        key_width_ = room / static_cast<double>(columns_);
-        key_lines_ = (keys_.size() + columns_ - 1) / columns_;
+        lay_out_legend();
         chart_.width = static_cast<unsigned>(std::ceil(figure_.width));
         chart_.height =
             static_cast<unsigned>(std::ceil(y + legend_line * static_cast<double>(key_lines_) + 6));
+    }
+
+    /// As many columns as there is room for, up to four; each as wide as its longest key.
+    void lay_out_legend() {
+        const double room = figure_.width - 2 * edge;
+        for (std::size_t columns = std::clamp<std::size_t>(keys_.size(), 1, 4); columns > 0; --columns) {
+            key_lines_ = (keys_.size() + columns - 1) / columns;
+            std::vector<double> widths;
+            for (std::size_t first = 0; first < keys_.size(); first += key_lines_) {
+                double longest = 0;
+                for (std::size_t k = first; k < std::min(first + key_lines_, keys_.size()); ++k)
+                    longest = std::max(longest, text_width(keys_[k].label, legend_size));
+                widths.push_back(sample + gap_to_text + longest + gap_of_keys);
+            }
+            const double needed = std::accumulate(widths.begin(), widths.end(), 0.0);
+            if (needed > room + gap_of_keys && columns > 1) continue;
+            const double spare =
+                std::max(0.0, room - needed) / static_cast<double>(std::max<std::size_t>(widths.size(), 1));
+            double x = edge;
+            for (const double width : widths) {
+                key_columns_.push_back(x);
+                x += width + spare;
+            }
+            return;
+        }
     }
 
     void scale(char axis, const Scale& scale) {
@@ -349,15 +369,16 @@ private:
                 points.front().x = horizontal.at(inset);
                 points.back().x = horizontal.at(1 - inset);
             }
-            draw(line, points, under, fmt::format("{}_{}", p, l), add);
+            draw(line, points, under, fmt::format("{}_{}", p, l), panel, places_[p], add);
         }
         say("{}plot {}\n", labels_, plots.empty() ? "NaN notitle" : plots);
         labels_.clear();
+        taken_.clear();
     }
 
     template <class Add>
     void draw(const Line& line, const std::vector<Point>& points, int under, const std::string& number,
-              const Add& add) {
+              const Panel& panel, const Place& place, const Add& add) {
         const std::string name = "$line_" + number;
         say("# {}\n{} << EOD\n", gnuplot_string(line.label), name);
         for (const Point& point : points) {
@@ -365,11 +386,11 @@ private:
                 say("\n");
             else
                 say("{:.10g} {:.10g}\n", point.x, point.y);
-            if (!point.label.empty())
+            if (!point.label.empty() && is_free(point, panel, place))
                 labels_ += fmt::format(
-                    "set label {} at {:.10g},{:.10g} noenhanced font ',10' tc rgb '{}' left offset "
+                    "set label {} at {:.10g},{:.10g} noenhanced font ',{}' tc rgb '{}' left offset "
                     "0.5,0.45\n",
-                    gnuplot_string(point.label), point.x, point.y, line.colour);
+                    gnuplot_string(point.label), point.x, point.y, point_size, line.colour);
         }
         say("EOD\n");
         bars(line, points, "$bars_" + number, add);
@@ -379,6 +400,19 @@ private:
         // The last point only carries the last step to the edge.
         add(fmt::format("{} every ::0::{} using 1:2 with points lc rgb '{}' pt {} ps 0.7", name,
                         points.size() - 2, line.colour, line.marker));
+    }
+
+    /// Whether a point's label, at its right and a little up, meets none that stands already; then it stands.
+    bool is_free(const Point& point, const Panel& panel, const Place& place) {
+        const double x = place.left + across(panel).scale.share(point.x) * (place.right - place.left);
+        const double y = place.bottom - panel.up.scale.share(point.y) * (place.bottom - place.top);
+        const Place own{x, x + text_width(point.label, point_size) + 4, y - point_size - 2, y};
+        for (const Place& other : taken_)
+            if (own.left < other.right && other.left < own.right && own.top < other.bottom &&
+                other.top < own.bottom)
+                return false;
+        taken_.push_back(own);
+        return true;
     }
 
     template <class Add>
@@ -404,9 +438,9 @@ private:
             chart_.width, chart_.height);
         std::string plots;
         for (std::size_t k = 0; k < keys_.size(); ++k) {
-            const double x = edge + key_width_ * static_cast<double>(k / key_lines_);
+            const double x = key_columns_[k / key_lines_];
             const double y = legend_top_ + legend_line * (static_cast<double>(k % key_lines_) + 0.5);
-            label(fitting(keys_[k].label, legend_size, key_width_ - sample - gap_to_text),
+            label(fitting(keys_[k].label, legend_size, figure_.width - edge - x - sample - gap_to_text),
                   x + sample + gap_to_text, y, fmt::format("left font ',{}'", legend_size));
             const char* separator = plots.empty() ? "" : ", \\\n    ";
             if (keys_[k].line != nullptr) {
@@ -431,9 +465,11 @@ private:
     std::vector<std::string> caption_;
     std::vector<Key> keys_;
     std::vector<Place> places_;
-    std::string labels_;
-    double key_width_ = 0, legend_top_ = 0;
-    std::size_t columns_ = 1, key_lines_ = 0;
+    std::string labels_;        ///< Of the points of a panel ...
+    std::vector<Place> taken_;  ///< ... and where they are.
+    std::vector<double> key_columns_;
+    double legend_top_ = 0;
+    std::size_t key_lines_ = 0;
 };
 
 }  // namespace

@@ -10,16 +10,12 @@
 #include <string_view>
 #include <vector>
 
-#include "cachesim/address_trace.h"
 #include "cachesim/cache_list.h"
-#include "cachesim/family_sweep.h"
-#include "cachesim/policy_sweep.h"
 #include "cli/command.h"
 #include "cli/commands.h"
-#include "cli/machine.h"
 #include "cli/progress.h"
 #include "cli/version.h"
-#include "results/cache_row.h"
+#include "experiment/address_sweep.h"
 #include "results/csv.h"
 #include "results/provenance.h"
 #include "results/table.h"
@@ -88,41 +84,8 @@ void check_effects(const Command& command, const Options& options) {
                 fmt::format("{}: found without --policy {}, expected both or none", name, policy));
 }
 
-/// The columns of a cache's shape and policy.
-results::CacheRow row_of(const cachesim::PolicyConfig& config) {
-    results::CacheRow row;
-    row.policy = name_of(config.policy);
-    row.size_bytes = config.geometry.size_bytes;
-    row.line_bytes = config.geometry.line_bytes;
-    row.ways = config.geometry.ways == cachesim::fully_associative ? 0 : config.geometry.ways;
-    row.write = cachesim::write_policy_names[static_cast<std::size_t>(config.write)];
-    row.write_miss = cachesim::write_miss_names[static_cast<std::size_t>(config.write_miss)];
-    row.index = cachesim::set_index_names[static_cast<std::size_t>(config.index)];
-    if (config.policy == cachesim::Policy::random) row.seed = config.seed;
-    return row;
-}
-
-std::vector<results::CacheRow> rows_of(std::span<const cachesim::PolicyRow> simulated) {
-    std::vector<results::CacheRow> rows;
-    for (const auto& [config, stats, classes] : simulated) {
-        results::CacheRow& row = rows.emplace_back(row_of(config));
-        row.accesses = stats.accesses;
-        row.hits = stats.hits();
-        row.misses = stats.misses;
-        if (classes) {
-            row.compulsory = classes->compulsory;
-            row.capacity = classes->capacity;
-            row.conflict = classes->conflict;
-        }
-        row.writebacks = stats.writebacks;
-        row.writes_through = stats.passed_writes;
-        row.traffic_bytes = stats.traffic_bytes(config.geometry.line_bytes);
-    }
-    return rows;
-}
-
-/// Every LRU cache of the line sizes. What a trace with writes writes back is not told.
-std::vector<results::CacheRow> all_lru(const Options& options, const Console& console) {
+/// Every LRU cache of the line sizes.
+std::vector<results::CacheRow> all_lru(const Options& options, const experiment::SweepListeners& listeners) {
     std::vector<std::uint32_t> line_sizes;
     if (options.lines.empty()) throw trace::UsageError("--line: found none, expected one");
     for (const std::string_view line : cachesim::list_parts(options.lines))
@@ -132,56 +95,7 @@ std::vector<results::CacheRow> all_lru(const Options& options, const Console& co
     if (most_ways == cachesim::fully_associative || most_ways > 32)
         throw trace::UsageError(
             fmt::format("--ways: found '{}' beside --all-lru, expected the most ways, 1 to 32", ways));
-
-    cachesim::AddressTrace trace(options.files);
-    cachesim::FamilySweep sweep(line_sizes, most_ways, !options.no_3c);
-    bool writes = false;
-    {
-        Progress progress(console);
-        for (auto records = trace.next(); !records.empty(); records = trace.next()) {
-            sweep.access(records);
-            for (const cachesim::ByteAccess& access : records)
-                writes = writes || access.kind == cachesim::Access::write;
-            const auto [done, total, unit] = trace.position();
-            if (total != 0) progress.update("cachesim: all lru", unit, done, total);
-        }
-        for (const std::string& note : trace.notes()) progress.note(note);
-    }
-    std::vector<results::CacheRow> rows;
-    for (const cachesim::FamilyRow& found : sweep.rows()) {
-        cachesim::PolicyConfig config;
-        config.geometry = found.config;
-        results::CacheRow& row = rows.emplace_back(row_of(config));
-        row.accesses = found.accesses;
-        row.hits = found.accesses - found.misses;
-        row.misses = found.misses;
-        if (!options.no_3c) {
-            row.compulsory = found.compulsory;
-            row.capacity = found.capacity;
-            row.conflict = found.conflict;
-        }
-        if (writes) continue;
-        row.writebacks = row.writes_through = 0;
-        row.traffic_bytes = found.misses * found.config.line_bytes;
-    }
-    return rows;
-}
-
-std::vector<cachesim::PolicyRow> simulate(const Options& options,
-                                          std::span<const cachesim::PolicyConfig> configs,
-                                          const Console& console) {
-    cachesim::AddressTrace trace(options.files);
-    cachesim::PolicySweep sweep(configs, {!options.no_3c, options.opt_limit});
-    Progress progress(console);
-    for (auto records = trace.next(); !records.empty(); records = trace.next()) {
-        sweep.access(records);
-        const auto [done, total, unit] = trace.position();
-        if (total != 0) progress.update("cachesim", unit, done, total);
-    }
-    for (const std::string& note : trace.notes()) progress.note(note);
-    return sweep.finish([&](std::uint64_t done, std::uint64_t total) {
-        progress.update("cachesim: opt", "accesses", done, total);
-    });
+    return experiment::sweep_all_lru(options.files, line_sizes, most_ways, !options.no_3c, listeners);
 }
 
 /// As CSV on stdout; or into the file, with a table on stdout.
@@ -197,21 +111,24 @@ void run(const Options& options, const Console& console) {
     std::vector<cachesim::Machine> machines;
     std::vector<cachesim::PolicyConfig> configs;
     if (!options.machines.empty())
-        machines = load_machines(options.machines);
+        machines = experiment::load_machines(options.machines);
     else if (!options.all_lru)
         configs = combinations(options, console);
     if (!options.csv.empty()) results::refuse_to_overwrite(options.csv, options.force);
-    if (machines.empty()) {
-        give(options.all_lru ? all_lru(options, console) : rows_of(simulate(options, configs, console)),
-             options, console);
-    } else {
-        std::vector<results::MachineRow> rows;
-        {
-            Progress progress(console);
-            rows = run_machines(machines, options.files, progress);
-        }
-        give(rows, options, console);
+    std::vector<results::CacheRow> caches;
+    std::vector<results::MachineRow> levels;
+    {
+        Progress progress(console);
+        const experiment::SweepListeners listeners{progress.listener(), progress.note_listener()};
+        if (!machines.empty())
+            levels = experiment::sweep_machines(machines, options.files, listeners);
+        else if (options.all_lru)
+            caches = all_lru(options, listeners);
+        else
+            caches = experiment::sweep_policies(options.files, configs, {!options.no_3c, options.opt_limit},
+                                                listeners);
     }
+    machines.empty() ? give(caches, options, console) : give(levels, options, console);
 }
 
 }  // namespace

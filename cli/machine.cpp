@@ -1,34 +1,21 @@
-#include "cli/machine.h"
-
+// regather machines -- the embedded memory systems, or one with the source of each figure.
 #include <fmt/format.h>
-#include <tbb/parallel_for_each.h>
 
 #include <algorithm>
 #include <array>
 #include <memory>
 
-#include "cachesim/cache_list.h"
+#include "cachesim/machine.h"
 #include "cli/command.h"
 #include "cli/commands.h"
 #include "results/table.h"
-#include "trace/error.h"
 
 namespace regather::cli {
 
 namespace {
 
-using cachesim::DramStats;
-using cachesim::Hierarchy;
 using cachesim::LevelConfig;
-using cachesim::LevelStats;
 using cachesim::Machine;
-
-bool took_part(const Hierarchy& hierarchy, trace::Region region) {
-    if (hierarchy.dram() && hierarchy.dram()->stats(region) != DramStats{}) return true;
-    for (std::size_t level = 0; level < hierarchy.levels(); ++level)
-        if (hierarchy.stats(level, region) != LevelStats{}) return true;
-    return false;
-}
 
 std::string bytes_in_words(std::uint64_t bytes) {
     if (bytes >= 1 << 20 && bytes % (1 << 20) == 0) return fmt::format("{}M", bytes >> 20);
@@ -119,82 +106,6 @@ void print_details(const std::string& name_or_path, const Console& console) {
 }
 
 }  // namespace
-
-std::vector<Machine> load_machines(std::string_view list) {
-    std::vector<Machine> machines;
-    for (const std::string_view name : cachesim::list_parts(list)) {
-        machines.push_back(cachesim::load_machine(name));
-        if (std::count_if(machines.begin(), machines.end(),
-                          [&](const Machine& one) { return one.name == machines.back().name; }) > 1)
-            throw trace::UsageError(
-                fmt::format("--machine: found {} twice, expected each machine once", machines.back().name));
-    }
-    return machines;
-}
-
-std::vector<results::MachineRow> machine_rows(const Machine& machine, const Hierarchy& hierarchy) {
-    std::vector<results::MachineRow> rows;
-    const auto each_region = [&](std::string_view level, const auto& fill) {
-        for (std::size_t r = 0; r < trace::region_count; ++r) {
-            const auto region = static_cast<trace::Region>(r);
-            if (!took_part(hierarchy, region)) continue;
-            results::MachineRow& row = rows.emplace_back();
-            row.machine = machine.name;
-            row.level = level;
-            row.region = trace::region_names[r];
-            fill(row, region);
-        }
-    };
-    for (std::size_t level = 0; level < hierarchy.levels(); ++level)
-        each_region(machine.levels[level].name, [&](results::MachineRow& row, trace::Region region) {
-            const LevelStats& stats = hierarchy.stats(level, region);
-            row.accesses = stats.accesses;
-            row.hits = stats.hits;
-            row.misses = stats.misses;
-            row.sector_misses = stats.sector_misses;
-            row.victim_hits = stats.victim_hits;
-            row.writebacks = stats.writebacks;
-            row.clean_victims = stats.clean_victims;
-            row.writes_through = stats.passed_writes;
-            row.back_invalidations = stats.back_invalidations;
-            row.prefetches = stats.prefetches;
-            row.useful_prefetches = stats.useful_prefetches;
-            row.bytes_in = stats.bytes_in;
-            row.bytes_out = stats.bytes_out;
-        });
-    if (const cachesim::Dram* const dram = hierarchy.dram())
-        each_region("dram", [&](results::MachineRow& row, trace::Region region) {
-            const DramStats& stats = dram->stats(region);
-            row.bursts_read = stats.bursts_read;
-            row.bursts_written = stats.bursts_written;
-            row.row_hits = stats.row_hits;
-            row.row_empty = stats.row_empty;
-            row.row_conflicts = stats.row_conflicts;
-            row.picojoules = dram->picojoules(stats);
-        });
-    return rows;
-}
-
-std::vector<results::MachineRow> run_machines(std::span<const Machine> machines,
-                                              const cachesim::AddressFiles& files, Progress& progress) {
-    cachesim::AddressTrace trace(files);
-    std::vector<Hierarchy> hierarchies;
-    for (const Machine& machine : machines) hierarchies.push_back(machine.hierarchy());
-    for (auto records = trace.next(); !records.empty(); records = trace.next()) {
-        tbb::parallel_for_each(
-            hierarchies, [&](Hierarchy& hierarchy) { hierarchy.access(records, trace::Region::other); });
-        const auto [done, total, unit] = trace.position();
-        if (total != 0) progress.update("cachesim", unit, done, total);
-    }
-    for (const std::string& note : trace.notes()) progress.note(note);
-    std::vector<results::MachineRow> rows;
-    for (std::size_t i = 0; i < machines.size(); ++i) {
-        hierarchies[i].flush();
-        for (results::MachineRow& row : machine_rows(machines[i], hierarchies[i]))
-            rows.push_back(std::move(row));
-    }
-    return rows;
-}
 
 void add_machines(Command& command) {
     auto machine = std::make_shared<std::string>();

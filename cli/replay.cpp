@@ -8,9 +8,9 @@
 #include "cachesim/cache_list.h"
 #include "cli/command.h"
 #include "cli/commands.h"
-#include "cli/machine.h"
 #include "cli/progress.h"
 #include "cli/version.h"
+#include "experiment/address_sweep.h"
 #include "experiment/measurement.h"
 #include "results/benefit.h"
 #include "results/csv.h"
@@ -22,7 +22,7 @@
 namespace regather::cli {
 namespace {
 
-/// The rows of cli/machine.h for each ordering, with its name.
+/// The rows of machines for each ordering, with its name.
 std::vector<results::MachineRow> through_machines(const experiment::Measurement& measurement,
                                                   const trace::TraceReader& trace,
                                                   std::span<const reorder::ParsedOrdering> orderings,
@@ -37,7 +37,7 @@ std::vector<results::MachineRow> through_machines(const experiment::Measurement&
             progress.update("replaying " + parsed.spec.text, "queries", done, measurement.queries());
         });
         for (std::size_t m = 0; m < machines.size(); ++m)
-            for (results::MachineRow& row : machine_rows(machines[m], systems[m])) {
+            for (results::MachineRow& row : experiment::machine_rows(machines[m], systems[m])) {
                 row.scene = trace.info().scene;
                 row.ordering = parsed.spec.name;
                 row.parameters = parsed.spec.text;
@@ -90,7 +90,7 @@ void run(const Options& options, const Console& console) {
         replay::SetSample::check(caches, *method.sampling);
     }
     std::vector<cachesim::Machine> machines;
-    if (!options.machines.empty()) machines = load_machines(options.machines);
+    if (!options.machines.empty()) machines = experiment::load_machines(options.machines);
     trace::TraceReader trace(options.trace);
     experiment::Measurement measurement(trace, reads, trace::parse_size(options.onchip));
     std::string csv, table;

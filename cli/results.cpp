@@ -23,10 +23,10 @@ void run(const Options& options, const Console& console) {
     const std::vector<study::Result> all = study::find_results(
         options.folder, std::vector<std::filesystem::path>(options.scenes.begin(), options.scenes.end()));
     console.print("{}", results::text_of(study::result_table(all)));
-    const auto current = std::count_if(all.begin(), all.end(), [](const study::Result& result) {
-        return result.standing == study::Standing::current;
+    const auto sound = std::count_if(all.begin(), all.end(), [](const study::Result& result) {
+        return result.standing == study::Standing::current || result.standing == study::Standing::unaffected;
     });
-    if (const auto others = static_cast<std::ptrdiff_t>(all.size()) - current; others > 0)
+    if (const auto others = static_cast<std::ptrdiff_t>(all.size()) - sound; others > 0)
         throw std::runtime_error(fmt::format("{}: {} of {} files are not known to be of this renderer",
                                              options.folder.string(), others, all.size()));
 }

@@ -43,8 +43,9 @@ Origin read_origin(const std::filesystem::path& csv) {
     const std::filesystem::path json = provenance_path(csv);
     const trace::Document document(trace::read_file(json), json.string());
     const trace::Field root = document.root();
-    Origin origin{root["git_revision"].text(), root["trace_checksum"].text(), {}, {}};
     const trace::Field parameters = root["trace_parameters"];
+    Origin origin{
+        !parameters.value().is_null(), root["git_revision"].text(), root["trace_checksum"].text(), {}, {}};
     if (!parameters.value().is_object() || !parameters.has("renderer")) return origin;
     const trace::Field renderer = parameters["renderer"];
     origin.scene = renderer["scene"].text();

@@ -25,6 +25,7 @@ void refuse_to_overwrite(const std::filesystem::path& csv, bool force);
 
 /// What a file of results says of the renderer that it came from.
 struct Origin {
+    bool is_rendered = false;  ///< Something was rendered for it: a trace or images.
     std::string git_revision;
     std::string trace_checksum;  ///< Of the capture; empty when no trace was read.
     std::string scene,

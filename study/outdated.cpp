@@ -50,6 +50,10 @@ Result result_of(const fs::path& csv, Fingerprints& fingerprints) {
         return out;
     }
     out.origin = results::read_origin(csv);
+    if (!out.origin.is_rendered) {
+        out.standing = Standing::unaffected;
+        return out;
+    }
     if (out.origin.fingerprint.empty()) {
         out.reason = "names no renderer";
         return out;
@@ -93,9 +97,10 @@ results::Table result_table(std::span<const Result> all) {
         untold += result.standing == Standing::untold;
         out.add({result.csv.string(), result.origin.scene, result.origin.git_revision,
                  result.origin.trace_checksum,
-                 result.standing == Standing::current    ? "as this one"
-                 : result.standing == Standing::outdated ? "OUTDATED"
-                                                         : "not told: " + result.reason});
+                 result.standing == Standing::current      ? "as this one"
+                 : result.standing == Standing::unaffected ? "none"
+                 : result.standing == Standing::outdated   ? "OUTDATED"
+                                                           : "not told: " + result.reason});
     }
     out.notes.push_back(fmt::format("{} of {} outdated, {} not told", outdated, all.size(), untold));
     return out;

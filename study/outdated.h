@@ -12,9 +12,10 @@
 namespace regather::study {
 
 enum class Standing {
-    current,   ///< This renderer gives the fingerprint that stands there.
-    outdated,  ///< It gives another one.
-    untold,    ///< Nothing stands there, or the scene is not known.
+    current,     ///< This renderer gives the fingerprint that stands there.
+    outdated,    ///< It gives another one.
+    unaffected,  ///< Nothing was rendered for it.
+    untold,      ///< Nothing stands there, or the scene is not known.
 };
 
 struct Result {

@@ -52,7 +52,7 @@ Case furnace_by_photons(double albedo) {
                 const auto paths = static_cast<double>(pass.tally.paths);
                 const double escaped = pass.tally.escaped[0];
                 return sampled(escaped > 0 ? INFINITY : std::fabs(found - truth) / truth,
-                               truth * 0x1p-22 + 1 / paths, std::sqrt(a / paths), 0.2);
+                               truth * 0x1p-22 + 1 / paths, std::sqrt(a / paths), albedo > 0.985 ? 0.3 : 0.1);
             },
             false,
             albedo > 0.995};
@@ -153,7 +153,7 @@ Case keyhole_by_photons(double share) {
                     }
                 const double truth = share * mean;
                 return sampled(std::fabs(found - truth) / truth, 1.0 / 256,
-                               1 / std::sqrt(std::max(through, 1.0)), share < 5e-4 ? 0.3 : 0.2);
+                               1 / std::sqrt(std::max(through, 1.0)), share < 5e-4 ? 0.35 : 0.2);
             },
             false,
             share < 5e-3};

@@ -14,6 +14,8 @@
 #include <string_view>
 #include <utility>
 
+#include "trace/text.h"
+
 namespace regather::trace {
 
 static_assert(std::endian::native == std::endian::little, "columns are mapped as they are");
@@ -42,7 +44,8 @@ std::string header_block(const ColumnType& type, std::uint64_t rows) {
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& found,
                          const std::string& expected) {
-    throw DataError(fmt::format("{}: found {}, expected {}", path.string(), found, expected));
+    throw DataError(
+        fmt::format("{}: found {}, expected {}", shown(path.string(), most_shown_path), found, expected));
 }
 
 /// The value of a key in the header's dictionary, as text without blanks; empty when the key is missing.
@@ -195,10 +198,10 @@ MappedColumn::MappedColumn(const std::filesystem::path& path, const ColumnType& 
             std::string foreign = without_blanks(type.descr);
             for (char& c : foreign)
                 if (c == '<') c = '>';
-            refuse(
-                path,
-                descr == foreign ? fmt::format("big-endian type {}", descr) : fmt::format("type {}", descr),
-                fmt::format("{} ({}, little-endian)", type.descr, type.readable));
+            refuse(path,
+                   descr == foreign ? fmt::format("big-endian type {}", shown(descr))
+                                    : fmt::format("type {}", shown(descr)),
+                   fmt::format("{} ({}, little-endian)", type.descr, type.readable));
         }
         if (value_of(header, "fortran_order") != "False") refuse(path, "Fortran order", "C order");
         const std::string shape = value_of(header, "shape");
@@ -210,7 +213,7 @@ MappedColumn::MappedColumn(const std::filesystem::path& path, const ColumnType& 
         const std::string expected_tail =
             type.inner_shape.empty() ? ",)" : fmt::format(",{})", type.inner_shape);
         if (error != std::errc{} || tail != expected_tail)
-            refuse(path, fmt::format("shape {}", shape),
+            refuse(path, fmt::format("shape {}", shown(shape)),
                    type.inner_shape.empty() ? "shape (rows,)"
                                             : fmt::format("shape (rows, {})", type.inner_shape));
         const std::size_t body = map_bytes_ - prefix - text_bytes;

@@ -170,7 +170,8 @@ TEST(Machine, RefusesABadFileWithOneLineThatNamesTheField) {
          "dram2: found unknown key \"dram2\", expected \"dram\""},
         {R"("channels": 3)", R"("channels": [[[[[[[[[[3]]]]]]]]]])",
          "dram.channels: found a list of 1, expected a whole number"},
-        {R"("name": "toy",)", R"("name": "toy")", "line 3, column 11: "},
+        {R"("name": "toy",)", R"("name": "toy")",
+         "line 3, column 3: found another text, expected ',' or '}'"},
     };
     for (const auto& [from, to, message] : cases) {
         const std::string found = refusal(from, to);

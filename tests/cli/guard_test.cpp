@@ -24,11 +24,12 @@ bool is_of_the_clock(const results::Column& column) {
            column.name == "efficiency";
 }
 
-/// Each row on a line, its cells by name, but for those of the clock.
+/// Each row on a line, its cells by name, but for those of the clock; sorted, as the sequence of settings
+/// that `converge` takes is the clock's, too.
 template <class R>
-void tell(const std::vector<R>& rows, std::string& out) {
+void tell(const std::vector<R>& rows, std::multiset<std::string>& all) {
     for (const R& row : rows) {
-        out += R::kind().name;
+        std::string out(R::kind().name);
         for (const results::Column& column : R::kind().columns)
             if (!is_of_the_clock(column)) {
                 out += ' ';
@@ -36,20 +37,20 @@ void tell(const std::vector<R>& rows, std::string& out) {
                 out += '=';
                 out += results::cell_text(column, &row);
             }
-        out += '\n';
+        all.insert(std::move(out));
     }
 }
 
 template <class... R>
 struct Telling {
-    static std::string all(const results::Rows& rows) {
-        std::string out;
+    static std::multiset<std::string> all(const results::Rows& rows) {
+        std::multiset<std::string> out;
         (tell(rows.of<R>(), out), ...);
         return out;
     }
 };
 
-std::string told(const fs::path& csv) {
+std::multiset<std::string> told(const fs::path& csv) {
     results::Rows rows;
     EXPECT_THAT(rows.add(results::read_csv_text(csv), csv.string()), testing::IsEmpty());
     return results::EachKind<Telling>::all(rows);

@@ -328,9 +328,10 @@ TEST(Replay, AMachineOfOneLevelMovesWhatThatCacheMoves) {
         expect_done({"replay", trace, "--order", "naive", "hilbert:tile=16", "--cache", "128K:128:8"}).out,
         "stdout");
     for (const results::Row& row : exact)
-        EXPECT_THAT(rows, HasSubstr(fmt::format("box,{},{},paper-128k,L1,photons,{},{},{},", row.ordering,
-                                                row.parameters, *row.accesses, *row.accesses - *row.misses,
-                                                *row.misses)));
+        EXPECT_THAT(rows,
+                    HasSubstr(fmt::format("box,{},{},paper-128k,L1,photons,{},{},{},", row.ordering,
+                                          row.ordering == "naive" ? "naive" : '"' + row.parameters + '"',
+                                          *row.accesses, *row.accesses - *row.misses, *row.misses)));
     expect_refused(bad_usage, {"replay", trace, "--order", "naive", "--machine", "nobody"}, {"nobody"});
 }
 

@@ -106,6 +106,11 @@ TEST(ChiSquared, ComparesCountsCellByCell) {
     EXPECT_NEAR(chi_squared_p(other, due), std::exp(-(10.0 + 100.0 / 30) / 2),
                 1e-12);  // two degrees of freedom
     EXPECT_EQ(chi_squared_p(impossible, due), 0);
+    // Cells that expect fewer than 5 are one; a leftover that expects less than 1 is none.
+    const double few_due[] = {10, 10, 1.5, 0.5}, few[] = {10, 10, 4, 1}, least_due[] = {10, 10, 0.6},
+                 least[] = {10, 10, 3};
+    EXPECT_NEAR(chi_squared_p(few, few_due), std::exp(-(3.0 * 3 / 2) / 2), 1e-12);
+    EXPECT_EQ(chi_squared_p(least, least_due), 1);
 }
 
 TEST(ChiSquared, SidakSharesTheSignificanceAmongTests) {

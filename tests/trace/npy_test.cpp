@@ -151,6 +151,11 @@ TEST(Npy, DamageIsRefusedWithTheFileWhatWasFoundAndWhatWasExpected) {
     refused("shape (9999999999999999999999,)");
     overwrite(path, 10, "{'descr': '<u4', 'fortran_order': False, 'shape': (4611686018427387907,), }");
     refused("12 bytes of rows");
+    overwrite(path, 10,
+              "{'descr': '<u4', 'fortran_order': False, 'shape': (3,\x1b\n),}                       ");
+    refused("found shape (3,\\x1b\\n), expected");
+    overwrite(path, 10, "{'descr': '\x1bz', 'fortran_order': False, 'shape': (3,),}                       ");
+    refused("found type '\\x1bz', expected");
 }
 
 TEST(Npy, AnUnfinishedColumnIsRefused) {
