@@ -293,7 +293,7 @@ TEST(Gltf, SparsePositionsReplaceThoseOfTheView) {
     for (const auto& [x, y, z] : box_corners)
         for (const int v : {x, y, z == 4 ? 3 : z}) put(bytes, static_cast<float>(v));
     bytes += box_bytes().substr(96);
-    for (const std::uint16_t i : {4, 5, 6, 7}) put(bytes, i);
+    for (const int i : {4, 5, 6, 7}) put(bytes, static_cast<std::uint16_t>(i));
     for (const std::size_t i : {4, 5, 6, 7})
         for (const int x : box_corners[i]) put(bytes, static_cast<float>(x));
     Parts parts;
