@@ -15,7 +15,8 @@
 namespace regather::study {
 namespace {
 
-/// Display values before their sRGB encoding: 1 - exp(-x), the curve of image.png, all under the reference's exposure.
+/// Display values before their sRGB encoding: 1 - exp(-x), the curve of image.png, all under the reference's
+/// exposure.
 capture::Image view(const capture::Image& image, float exposure) {
     capture::Image out = image;
     for (trace::Vec3& pixel : out.pixels)
