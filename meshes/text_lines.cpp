@@ -81,10 +81,8 @@ bool TextLines::next() {
         keyword_ = in_lower_case(first);
         const bool has_comment = !ends_with_a_name(keyword_);
         const auto goes_on = [&] {
-            const std::string_view content = has_comment ? without_comment(part) : part;
-            const bool whole = content.size() == part.size();
-            part = trimmed_right(content);
-            if (!whole || !part.ends_with('\\')) return false;
+            part = trimmed_right(has_comment ? without_comment(part) : part);
+            if (!part.ends_with('\\')) return false;
             part.remove_suffix(1);
             return true;
         };

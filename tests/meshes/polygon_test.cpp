@@ -61,15 +61,21 @@ TEST(Polygon, AConcaveQuadIsFilledWithoutLeavingIt) {
 }
 
 TEST(Polygon, CornersOnAnEdgeAreKeptSoThatNeighboursStayJoined) {
-    // A square of 2 with a corner in the middle of its lower side.
-    const Polygon square{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}};
-    Triangulator triangulator;
-    EXPECT_EQ(triangulator.fill(square), Result::whole);
-    EXPECT_EQ(triangulator.triangles().size(), 3u);
-    EXPECT_NEAR(area_of(square, triangulator.triangles()), 4, 1e-12);
-    expect_edges_of(5, triangulator.triangles());
-    for (const auto& [a, b, c] : triangulator.triangles())
-        EXPECT_GT(twice_area(Polygon{square[a], square[b], square[c]}), 0);
+    // A square of 2 and a triangle of 2 x 2, each with a corner in the middle of its lower side, from every
+    // first corner.
+    for (const auto& [polygon, area] : {std::pair{Polygon{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}, 4.0},
+                                        {Polygon{{1, 2}, {0, 0}, {1, 0}, {2, 0}}, 2.0}})
+        for (std::size_t first = 0; first < polygon.size(); ++first) {
+            Polygon turned = polygon;
+            std::rotate(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(first), turned.end());
+            Triangulator triangulator;
+            EXPECT_EQ(triangulator.fill(turned), Result::whole);
+            EXPECT_EQ(triangulator.triangles().size(), turned.size() - 2);
+            EXPECT_NEAR(area_of(turned, triangulator.triangles()), area, 1e-12);
+            expect_edges_of(turned.size(), triangulator.triangles());
+            for (const auto& [a, b, c] : triangulator.triangles())
+                EXPECT_GT(twice_area(Polygon{turned[a], turned[b], turned[c]}), 0);
+        }
 }
 
 TEST(Polygon, WhatCrossesItselfIsSaidAndKeepsItsEdges) {
