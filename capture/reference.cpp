@@ -38,21 +38,21 @@ std::string moments_name(std::uint32_t samples) {
     return fmt::format("moments-{}.npy", samples);
 }
 
-constexpr std::string_view count = "a whole number", text = "a text";
+constexpr std::string_view whole = "a whole number", text = "a text";
 const Kind reference_kind{"reference",
                           {{"reference_version", true, "the version of the format"},
                            {"scene", true, text},
                            {"scene_checksum", true, text},
-                           {"image_width", true, count},
-                           {"image_height", true, count},
-                           {"seed", true, count},
-                           {"samples", true, count},
+                           {"image_width", true, whole},
+                           {"image_height", true, whole},
+                           {"seed", true, whole},
+                           {"samples", true, whole},
                            {"seconds", true, "a number of seconds"},
-                           {"paths", true, count},
-                           {"rays", true, count},
-                           {"shadow_rays", true, count},
-                           {"cut_off_paths", true, count},
-                           {"nonfinite_paths", true, count},
+                           {"paths", true, whole},
+                           {"rays", true, whole},
+                           {"shadow_rays", true, whole},
+                           {"cut_off_paths", true, whole},
+                           {"nonfinite_paths", true, whole},
                            {"moments", true, text},
                            {"moments_checksum", true, text}}};
 
