@@ -68,7 +68,7 @@ public:
     std::optional<Vec3> of(std::string name) {
         name = lower_case(name);
         for (const std::string_view ending : {".tga", ".jpg", ".jpeg", ".png"})
-            if (name.ends_with(ending)) name.resize(name.size() - ending.size());
+            if (name.ends_with(ending)) name.erase(name.size() - ending.size());
         if (name.empty()) return std::nullopt;
         if (const auto known = known_.find(name); known != known_.end()) return known->second;
         for (const std::string_view ending : {".tga", ".jpg", ".jpeg", ".png"}) {
