@@ -15,7 +15,7 @@
 
 #include "capture/sampler.h"
 #include "scenes/scene.h"
-#include "trace/vec3d.h"
+#include "trace/vec.h"
 
 namespace regather::capture {
 

@@ -16,7 +16,7 @@
 namespace regather::capture {
 namespace {
 
-using Rgb = std::array<double, 3>;
+using Rgb = trace::Vec3d;
 
 constexpr std::uint64_t block_pixels = 64;
 constexpr double roulette_below = 0.25;  // of the throughput: shorter paths are worth their whole cost
@@ -24,22 +24,6 @@ constexpr double roulette_below = 0.25;  // of the throughput: shorter paths are
 // only specular surfaces meets another roulette. Its mean length beyond is 64.
 constexpr std::uint32_t specular_run = 64;
 constexpr double specular_chance = 1 - 1.0 / 64;
-
-Rgb widened(Vec3 v) {
-    return {v.x, v.y, v.z};
-}
-Rgb operator*(const Rgb& a, const Rgb& b) {
-    return {a[0] * b[0], a[1] * b[1], a[2] * b[2]};
-}
-Rgb operator*(const Rgb& a, double s) {
-    return {a[0] * s, a[1] * s, a[2] * s};
-}
-double largest(const Rgb& a) {
-    return std::max({a[0], a[1], a[2]});
-}
-bool is_finite(const Rgb& a) {
-    return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
-}
 
 /// Weight of a technique of density `own` beside another one of density `other`.
 double power_heuristic(double own, double other) {
@@ -93,10 +77,6 @@ public:
     }
 
 private:
-    void add(const Rgb& value) {
-        for (std::size_t c = 0; c < 3; ++c) radiance_[c] += value[c];
-    }
-
     void add_emission(const Hit& hit, bool front) {
         const std::int32_t light = scene_.triangle_light[hit.triangle];
         if (light < 0 || !front) return;
@@ -114,7 +94,7 @@ private:
                 weight = power_heuristic(density_, of_light);
             }
         }
-        add(throughput_ * widened(scene_.lights[l].radiance) * weight);
+        radiance_ += throughput_ * scene_.lights[l].radiance * weight;
     }
 
     /// Direct light by a point on a light, then the path's next direction.
@@ -130,8 +110,8 @@ private:
         const bool lambert = at.material->kind == MaterialKind::diffuse || at.material->specular == Vec3{};
         specular_ = 0;
         throughput_ =
-            throughput_ * (lambert ? widened(at.material->diffuse)  // f cos / pdf without its roundings
-                                   : widened(brdf(*at.material, at.normal, direction_, incoming)) *
+            throughput_ * (lambert ? Rgb(at.material->diffuse)  // f cos / pdf without its roundings
+                                   : Rgb(brdf(*at.material, at.normal, direction_, incoming)) *
                                          (static_cast<double>(dot(at.normal, direction_)) / density_));
         return true;
     }
@@ -158,8 +138,8 @@ private:
         const double density = point.pdf * distance2 / cos_light;
         const double weight =
             tracer_.config_.direct_light == DirectLight::both ? power_heuristic(density, of_path) : 1;
-        add(throughput_ * widened(brdf(*at.material, at.normal, direction, incoming)) *
-            widened(point.radiance) * (static_cast<double>(dot(at.normal, direction)) * weight / density));
+        radiance_ += throughput_ * brdf(*at.material, at.normal, direction, incoming) * point.radiance *
+                     (static_cast<double>(dot(at.normal, direction)) * weight / density);
     }
 
     /// One branch of a specular surface. Radiance shrinks by the square of the index that the light leaves
@@ -171,7 +151,7 @@ private:
             throughput_ = throughput_ * (1 / specular_chance);
         }
         if (at.material->kind == MaterialKind::mirror) {
-            throughput_ = throughput_ * widened(at.material->specular);
+            throughput_ = throughput_ * at.material->specular;
         } else {
             Vec3 through;
             if (sampler_.fine_uniform() >= fresnel(dot(incoming, at.normal), at.eta()) &&
@@ -193,10 +173,10 @@ private:
     /// the way out.
     bool survives() {
         if (!is_finite(throughput_)) {  // nor is the path's radiance, then
-            radiance_[0] = std::numeric_limits<double>::quiet_NaN();
+            radiance_.x = std::numeric_limits<double>::quiet_NaN();
             return false;
         }
-        const double left = largest(throughput_) * compression_;
+        const double left = max_component(throughput_) * compression_;
         if (!(left > 0)) return false;
         if (left >= roulette_below) return true;
         const double chance = left / roulette_below;
@@ -252,9 +232,10 @@ PathCounts PathTracer::add(std::span<Moments> pixels, std::uint32_t first, std::
         const std::uint64_t begin = block * block_pixels,
                             end = std::min<std::uint64_t>(begin + block_pixels, pixels.size());
         for (std::uint64_t pixel = begin; pixel < end; ++pixel)
-            for (std::uint32_t s = 0; s < count; ++s)
-                pixels[pixel].add(sample(static_cast<std::uint32_t>(pixel), first + s, view, counts),
-                                  std::uint64_t{first} + s + 1);
+            for (std::uint32_t s = 0; s < count; ++s) {
+                const Rgb rgb = sample(static_cast<std::uint32_t>(pixel), first + s, view, counts);
+                pixels[pixel].add({rgb.x, rgb.y, rgb.z}, std::uint64_t{first} + s + 1);
+            }
         if (finished) finished(done += end - begin);
         const std::lock_guard lock(mutex);  // sums of whole numbers: in any order
         all += counts;

@@ -5,7 +5,6 @@
 // their square (box filter). Radiance [W / (m^2 sr)]. A sample depends on (scene, image size, seed, pixel,
 // number of the sample) alone: not on threads, not on what came before.
 #pragma once
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -50,8 +49,7 @@ public:
                const PathConfig& config);
 
     /// One sample of one pixel. `view` is scratch memory.
-    std::array<double, 3> sample(std::uint32_t pixel, std::uint32_t number, View& view,
-                                 PathCounts& counts) const;
+    trace::Vec3d sample(std::uint32_t pixel, std::uint32_t number, View& view, PathCounts& counts) const;
 
     /// Samples [first, first + count) of every pixel of the image, in parallel; those before are in `pixels`.
     /// `finished` is told the number of pixels done, from any thread.

@@ -1,7 +1,6 @@
 #include "capture/ray_caster.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -17,13 +16,8 @@ bool can_be_cast(Vec3 origin, Vec3 direction) {
     return length2 > 0 && length2 < infinity && is_finite(origin);
 }
 
-using Double3 = std::array<double, 3>;
-
-double length(const Double3& a) {
-    return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-}
 double distance(Vec3 a, Vec3 b) {
-    return length({double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z});
+    return length(trace::Vec3d(a) - b);
 }
 
 }  // namespace
@@ -46,13 +40,13 @@ RayCaster::RayCaster(const Scene& scene) : scene_(scene), bvh_(scene.vertices, s
         const Vec3 a = scene.vertices[triangle[0]], b = scene.vertices[triangle[1]],
                    c = scene.vertices[triangle[2]];
         // In double: the square of the area of a small triangle in a small scene is no float.
-        const Double3 across = spatial::across(a, b, c);
+        const auto [x, y, z] = spatial::across(a, b, c);
+        const trace::Vec3d across{x, y, z};
         const double area2 = length(across),
                      longest = std::max({distance(a, b), distance(b, c), distance(c, a)});
         Corners corners{a, b, c, {0, 0, 1}, 0};
         if (area2 > 0) {
-            corners.normal = {static_cast<float>(across[0] / area2), static_cast<float>(across[1] / area2),
-                              static_cast<float>(across[2] / area2)};
+            corners.normal = trace::to_float({across.x / area2, across.y / area2, across.z / area2});
             corners.near_edge = static_cast<float>(std::min(1.0, double{inset_} * longest / area2));
         }
         corners_.push_back(corners);

@@ -8,26 +8,13 @@
 
 namespace regather::imports {
 
-using trace::Vec3d;
+using meshes::cofactors, meshes::product, meshes::times, trace::Vec3d;
 
 namespace {
 
 constexpr double crease_degrees = 40;
 constexpr float pane_thickness = 0.004f;  // [m] Of glass that is a sheet in the model.
 constexpr double least_size = 1e-6;       // Of a model's box, as a share of its largest extent.
-
-Matrix3 product(const Matrix3& a, const Matrix3& b) {
-    Matrix3 c{};
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-            for (std::size_t k = 0; k < 3; ++k) c[3 * i + j] += a[3 * i + k] * b[3 * k + j];
-    return c;
-}
-
-Vec3d times(const Matrix3& m, Vec3d p) {
-    return {m[0] * p.x + m[1] * p.y + m[2] * p.z, m[3] * p.x + m[4] * p.y + m[5] * p.z,
-            m[6] * p.x + m[7] * p.y + m[8] * p.z};
-}
 
 Matrix3 about_x(double a) {
     return {1, 0, 0, 0, std::cos(a), -std::sin(a), 0, std::sin(a), std::cos(a)};
@@ -58,13 +45,6 @@ ModelBox box_of(const Model& model, const Affine& place) {
     return box;
 }
 
-// The inverse of a diagonal or rotation matrix, transposed: what normals are turned with. By cofactors.
-Matrix3 for_normals(const Matrix3& m) {
-    return {m[4] * m[8] - m[5] * m[7], m[5] * m[6] - m[3] * m[8], m[3] * m[7] - m[4] * m[6],
-            m[2] * m[7] - m[1] * m[8], m[0] * m[8] - m[2] * m[6], m[1] * m[6] - m[0] * m[7],
-            m[1] * m[5] - m[2] * m[4], m[2] * m[3] - m[0] * m[5], m[0] * m[4] - m[1] * m[3]};
-}
-
 }  // namespace
 
 Surface triangles_with(const Surface& all, const std::vector<std::uint32_t>& tags, std::uint32_t tag) {
@@ -91,10 +71,6 @@ std::uint64_t Model::triangles() const {
     std::uint64_t count = 0;
     for (const Part& part : parts) count += part.surface.triangles.size();
     return count;
-}
-
-Vec3d Affine::operator()(Vec3d p) const {
-    return times(linear, p) + offset;
 }
 
 Pose pose_of(const Model& model, const Placement& placement) {
@@ -131,7 +107,7 @@ Pose pose_of(const Model& model, const Placement& placement) {
 
 std::vector<Model::Part> placed(const Model& model, const Placement& placement) {
     const Pose pose = pose_of(model, placement);
-    const Matrix3 normals = for_normals(pose.of_model.linear);
+    const Matrix3 normals = cofactors(pose.of_model.linear);
 
     std::vector<Model::Part> parts = model.parts;
     for (Model::Part& part : parts) {

@@ -8,7 +8,8 @@
 
 #include "imports/material_table.h"
 #include "imports/scene_file.h"
-#include "trace/vec3d.h"
+#include "meshes/affine.h"
+#include "trace/vec.h"
 
 namespace regather::imports {
 
@@ -26,15 +27,7 @@ struct Model {
 /// The triangles of a mesh whose tag (one a triangle) is `tag`, with their own vertices.
 Surface triangles_with(const Surface& all, const std::vector<std::uint32_t>& tags, std::uint32_t tag);
 
-/// A 3 x 3 matrix by rows.
-using Matrix3 = std::array<double, 9>;
-
-/// p -> linear p + offset.
-struct Affine {
-    Matrix3 linear{1, 0, 0, 0, 1, 0, 0, 0, 1};
-    trace::Vec3d offset;
-    trace::Vec3d operator()(trace::Vec3d p) const;
-};
+using meshes::Affine, meshes::Matrix3;
 
 /// Where and how a model stands [m, radians], by the conventions of Sweet Home 3D (its class ModelManager):
 /// the model is turned by `model_rotation` about the middle of its box, its box then scaled to size and

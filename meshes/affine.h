@@ -1,4 +1,4 @@
-// meshes/affine.h -- where a node of a glTF file stands: an affine map in doubles.
+// meshes/affine.h -- where an object stands: an affine map in doubles.
 #pragma once
 #include <array>
 
@@ -6,12 +6,20 @@
 
 namespace regather::meshes {
 
-/// By rows: p goes to (row . p + row[3]).
-struct Affine {
-    std::array<std::array<double, 4>, 3> rows{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+/// A 3 x 3 matrix by rows.
+using Matrix3 = std::array<double, 9>;
+Matrix3 product(const Matrix3& a, const Matrix3& b);
+trace::Vec3d times(const Matrix3& m, trace::Vec3d p);
+/// The inverse, transposed, times the determinant: what normals go by.
+Matrix3 cofactors(const Matrix3& m);
 
+/// p -> linear p + offset.
+struct Affine {
+    Matrix3 linear{1, 0, 0, 0, 1, 0, 0, 0, 1};
+    trace::Vec3d offset;
+
+    trace::Vec3d operator()(trace::Vec3d p) const;
     double determinant() const;  ///< Of its linear part: below 0 when it mirrors.
-    trace::Vec3 point(trace::Vec3 p) const;
     /// Of a surface's normal n, by the transposed inverse; of length 1, or zero when there is none.
     trace::Vec3 normal(trace::Vec3 n) const;
     friend Affine operator*(const Affine& a, const Affine& b);  ///< b first.

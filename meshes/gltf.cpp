@@ -93,7 +93,8 @@ private:
             if (std::abs(m[3]) + std::abs(m[7]) + std::abs(m[11]) + std::abs(m[15] - 1) > 1e-4)
                 node["matrix"].fail("a last row other than 0 0 0 1", "an affine map");
             for (std::size_t i = 0; i < 3; ++i)
-                for (std::size_t j = 0; j < 4; ++j) place.rows[i][j] = m[4 * j + i];
+                for (std::size_t j = 0; j < 3; ++j) place.linear[3 * i + j] = m[4 * j + i];
+            place.offset = {m[12], m[13], m[14]};
             return place;
         }
         const auto t = numbers_of<3>(node, "translation", {0, 0, 0});
@@ -108,10 +109,9 @@ private:
         const double r[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
                                 {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
                                 {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
-        for (std::size_t i = 0; i < 3; ++i) {
-            for (std::size_t j = 0; j < 3; ++j) place.rows[i][j] = r[i][j] * s[j];
-            place.rows[i][3] = t[i];
-        }
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t j = 0; j < 3; ++j) place.linear[3 * i + j] = r[i][j] * s[j];
+        place.offset = {t[0], t[1], t[2]};
         return place;
     }
 
@@ -206,7 +206,7 @@ private:
             if (use != use_) {
                 use = use_;
                 number = static_cast<std::uint32_t>(surface.vertices.size());
-                const Vec3 p = place.point(positions_[v]);
+                const Vec3 p = to_float(place(positions_[v]));
                 if (!trace::is_finite(p)) file_.root().fail("a vertex whose place is not finite", "numbers");
                 surface.vertices.push_back(p);
                 surface.normals.push_back(normals_.empty() ? Vec3{} : place.normal(normals_[v]));

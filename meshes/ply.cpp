@@ -174,7 +174,7 @@ private:
                     numbers[static_cast<std::size_t>(slots[p])] = normal_part(element, row, property);
             }
             surface.vertices.push_back({numbers[0], numbers[1], numbers[2]});
-            const Vec3 normal = trace::normalize({numbers[3], numbers[4], numbers[5]});
+            const Vec3 normal = trace::normalize(Vec3{numbers[3], numbers[4], numbers[5]});
             surface.normals.push_back(trace::is_finite(normal) ? normal : Vec3{});
         }
     }

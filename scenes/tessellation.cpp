@@ -173,7 +173,7 @@ Surface tessellate(const Ripple& ripple) {
                 {p.x, p.y, static_cast<float>(c.z + ripple.amplitude * std::cos(angle))});
             const double along = r > 0 ? slope / r : 0;
             surface.normals.push_back(
-                trace::normalize({static_cast<float>(-along * x), static_cast<float>(-along * y), 1}));
+                trace::normalize(Vec3{static_cast<float>(-along * x), static_cast<float>(-along * y), 1}));
         }
     add_grid_triangles(surface, 0, n, n);
     if (!(ripple.depth > 0)) return surface;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "capture/bsdf.h"
-#include "trace/vec3d.h"
+#include "trace/vec.h"
 
 namespace regather::study {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "scenes/scene.h"
-#include "trace/vec3d.h"
+#include "trace/vec.h"
 
 namespace regather::study {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "trace/vec3d.h"
+#include "trace/vec.h"
 
 namespace regather::imports {
 

@@ -45,8 +45,8 @@ double by_quadrature(const Material& material) {
         for (int j = 0; j < steps; ++j) {
             const double x = (i + 0.5) / steps - 0.5, y = (j + 0.5) / steps - 0.5;
             const double distance2 = x * x + y * y + height * height, cosine = height / std::sqrt(distance2);
-            const Vec3 direction =
-                trace::normalize({static_cast<float>(x), static_cast<float>(y), static_cast<float>(height)});
+            const Vec3 direction = trace::normalize(
+                Vec3{static_cast<float>(x), static_cast<float>(y), static_cast<float>(height)});
             const Vec3 f = brdf(material, {0, 0, 1}, direction, trace::normalize(eye));
             sum += static_cast<double>(f.x) * emitted * cosine * cosine / distance2;
         }

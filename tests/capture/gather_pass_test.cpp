@@ -22,7 +22,7 @@ TEST(GatherPass, EachQueryIsTheEstimateTowardsWhereItsRayCameFromWhateverTheOrde
     for (trace::Photon& photon : photons) {
         photon.position = {sampler.uniform(), sampler.uniform(), 0};
         trace::encode_power({1, 2, 3}, photon.power);
-        trace::encode_direction(trace::normalize({0.6f, 0.1f, -0.8f}), photon);
+        trace::encode_direction(trace::normalize(Vec3{0.6f, 0.1f, -0.8f}), photon);
         trace::encode_normal({0, 0, 1}, photon);
     }
     const std::vector<trace::Photon> heap = spatial::left_balanced(photons);
@@ -30,7 +30,7 @@ TEST(GatherPass, EachQueryIsTheEstimateTowardsWhereItsRayCameFromWhateverTheOrde
     Queries queries;
     for (std::uint32_t q = 0; q < 5; ++q) {
         queries.position.push_back({0.1f + 0.2f * static_cast<float>(q), 0.5f, 0});
-        queries.direction.push_back(trace::normalize({q % 2 == 0 ? -0.6f : 0.6f, 0, -0.8f}));
+        queries.direction.push_back(trace::normalize(Vec3{q % 2 == 0 ? -0.6f : 0.6f, 0, -0.8f}));
         queries.normal.push_back({0, 0, 1});
         queries.triangle.push_back(q < 2 ? 0 : 1);
     }
