@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "capture/image_error.h"
+#include "trace/median.h"
 
 namespace regather::capture {
 namespace {
@@ -293,17 +294,20 @@ Exposures flip_exposures(const Image& reference) {
     values.reserve(reference.pixels.size());
     for (const trace::Vec3 p : reference.pixels)
         values.push_back(luminance(std::max(p.x, 0.0f), std::max(p.y, 0.0f), std::max(p.z, 0.0f)));
-    std::sort(values.begin(), values.end());
-    if (values.empty() || values.back() <= 0) return {0, 0, 1};
-    const std::size_t half = values.size() / 2;
-    double median = values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-    if (median <= 0) median = *std::find_if(values.begin(), values.end(), [](double v) { return v > 0; });
+    const double brightest = values.empty() ? 0 : *std::max_element(values.begin(), values.end());
+    if (brightest <= 0) return {0, 0, 1};
+    double middle = trace::median(values);
+    if (middle <= 0) {
+        middle = brightest;
+        for (const double value : values)
+            if (value > 0) middle = std::min(middle, value);
+    }
 
     // Where the curve is 0.85: the positive root of (k0 - 0.85 k3) x^2 + (k1 - 0.85 k4) x - 0.85 k5.
     constexpr double t = 0.85;
     const double half_b = 0.5 * (k1 - t * k4) / (k0 - t * k3), c = -t * k5 / (k0 - t * k3);
     const double root = -half_b + std::sqrt(half_b * half_b - c);
-    Exposures out{std::log2(root / values.back()), std::log2(root / median), 0};
+    Exposures out{std::log2(root / brightest), std::log2(root / middle), 0};
     out.count = static_cast<unsigned>(std::max(2.0, std::ceil(out.stop - out.start)));
     return out;
 }

@@ -50,14 +50,21 @@ std::vector<Channel> channels_of(const Image& image, const std::string& layer) {
     return channels;
 }
 
+std::array<std::uint8_t, 3> on_screen(trace::Vec3 radiance, float exposure, Tone tone) {
+    const auto byte = [&](float value) {
+        const float shown = to_srgb(toned(std::max(0.0f, value * exposure), tone));
+        return static_cast<std::uint8_t>(std::clamp(shown * 255 + 0.5f, 0.0f, 255.0f));
+    };
+    return {byte(radiance.x), byte(radiance.y), byte(radiance.z)};
+}
+
 void write_png(const fs::path& path, const Image& image, float exposure, Tone tone) {
     std::vector<std::uint8_t> values;
     values.reserve(3 * image.pixels.size());
-    for (trace::Vec3 p : image.pixels)
-        for (int c = 0; c < 3; ++c) {
-            const float shown = to_srgb(toned(std::max(0.0f, p[c] * exposure), tone));
-            values.push_back(static_cast<std::uint8_t>(std::clamp(shown * 255 + 0.5f, 0.0f, 255.0f)));
-        }
+    for (const trace::Vec3 p : image.pixels) {
+        const auto shown = on_screen(p, exposure, tone);
+        values.insert(values.end(), shown.begin(), shown.end());
+    }
     write_png(path, image.width, image.height, values);
 }
 

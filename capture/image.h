@@ -40,7 +40,10 @@ std::vector<Channel> channels_of(const Image& image, const std::string& layer);
 enum class Tone : std::uint8_t { exponential, linear, aces };
 inline constexpr std::array<const char*, 3> tone_names{"exponential", "linear", "aces"};
 
-/// 8-bit sRGB view of radiance times `exposure`.
+/// 8-bit sRGB of radiance times `exposure`.
+std::array<std::uint8_t, 3> on_screen(trace::Vec3 radiance, float exposure, Tone tone = Tone::exponential);
+
+/// The image on_screen().
 void write_png(const std::filesystem::path& path, const Image& image, float exposure,
                Tone tone = Tone::exponential);
 

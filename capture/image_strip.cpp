@@ -19,17 +19,6 @@ constexpr std::uint32_t least_panel = 256, margin = 10, letter_size = 13, letter
                         bar_width = 16, tick = 5, bar_text = 60;
 constexpr Rgb paper{255, 255, 255}, ink{32, 32, 32};
 
-Rgb shown(trace::Vec3 radiance, float exposure) {
-    Rgb out{};
-    for (int c = 0; c < 3; ++c) {
-        const float x = 1 - std::exp(-std::max(0.0f, radiance[c] * exposure));
-        const float srgb = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
-        out[static_cast<std::size_t>(c)] =
-            static_cast<std::uint8_t>(std::clamp(srgb * 255 + 0.5f, 0.0f, 255.0f));
-    }
-    return out;
-}
-
 class Canvas {
 public:
     Canvas(std::uint32_t width, std::uint32_t height)
@@ -122,9 +111,9 @@ Picture image_strip(const Image& image, const Image& reference, const StripText&
     title(second, text.reference);
     title(third, "error");
     canvas.panel(margin, top, columns, rows, scale,
-                 [&](std::size_t i) { return shown(image.pixels[i], exposure); });
+                 [&](std::size_t i) { return on_screen(image.pixels[i], exposure); });
     canvas.panel(second, top, columns, rows, scale,
-                 [&](std::size_t i) { return shown(reference.pixels[i], exposure); });
+                 [&](std::size_t i) { return on_screen(reference.pixels[i], exposure); });
     canvas.panel(third, top, columns, rows, scale,
                  [&](std::size_t i) { return false_colour(errors[i], range); });
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "charts/caption.h"
-#include "results/median.h"
+#include "trace/median.h"
 
 namespace regather::charts {
 namespace {
@@ -51,7 +51,7 @@ std::vector<Point> points(const Curve& curve, const Measure& measure, Along alon
             if (const auto y = measure.of(*row); y && *y > 0) found.push_back(*y);
         if (found.empty()) continue;
         const auto [least, most] = std::minmax_element(found.begin(), found.end());
-        Point point{curve.flat ? 0 : axis_value(*curve.rows[r], along), results::median(found)};
+        Point point{curve.flat ? 0 : axis_value(*curve.rows[r], along), trace::median(found)};
         if (*least < *most) {
             point.low = *least;
             point.high = *most;

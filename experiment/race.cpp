@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <thread>
 
-#include "results/median.h"
 #include "spatial/nearest.h"
 #include "spatial/photon_buckets.h"
+#include "trace/median.h"
 
 namespace regather::experiment {
 namespace {
@@ -134,11 +134,11 @@ std::optional<Structure> structure_named(std::string_view word) {
 }
 
 Timing timing_of(std::vector<double> seconds) {
-    const double middle = results::median(seconds);
+    const double middle = trace::median(seconds);
     const auto [min, max] = std::minmax_element(seconds.begin(), seconds.end());
     Timing timing{middle, *min, *max, 0};
     for (double& value : seconds) value = std::fabs(value - middle);
-    timing.mad = results::median(std::move(seconds));
+    timing.mad = trace::median(std::move(seconds));
     return timing;
 }
 
@@ -202,7 +202,7 @@ Race race(std::span<const trace::Photon> heap, const reorder::Workload& work,
                                (search[repeat] + order_seconds[i][repeat]));
             result.standings.push_back({i, config.structures[s], timing_of(order_seconds[i]),
                                         timing_of(search),
-                                        i == baseline ? 0 : results::median(std::move(gain))});
+                                        i == baseline ? 0 : trace::median(std::move(gain))});
         }
     }
     return result;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "results/median.h"
+#include "trace/median.h"
 
 namespace regather::results {
 namespace {
@@ -40,8 +40,8 @@ Accuracy summary(std::span<const SamplingRow* const> rows) {
         }
     }
     out.rms_error = std::sqrt(squares / static_cast<double>(rows.size()));
-    out.seconds = median(seconds);
-    if (!exact_seconds.empty() && out.seconds > 0) out.speed_up = median(exact_seconds) / out.seconds;
+    out.seconds = trace::median(seconds);
+    if (!exact_seconds.empty() && out.seconds > 0) out.speed_up = trace::median(exact_seconds) / out.seconds;
     return out;
 }
 

@@ -1,8 +1,8 @@
-#include "results/median.h"
+#include "trace/median.h"
 
 #include <algorithm>
 
-namespace regather::results {
+namespace regather::trace {
 
 double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -11,4 +11,4 @@ double median(std::vector<double> values) {
     return (*std::max_element(values.begin(), middle) + *middle) / 2;
 }
 
-}  // namespace regather::results
+}  // namespace regather::trace
