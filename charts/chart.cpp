@@ -109,6 +109,10 @@ std::vector<const ChartKind*> wanted_kinds(const results::Rows& rows, std::span<
     return out;
 }
 
+std::array<std::filesystem::path, 2> files_of(const std::filesystem::path& folder, const ChartKind& kind) {
+    return {folder / fmt::format("{}.svg", kind.name), folder / fmt::format("{}.png", kind.name)};
+}
+
 std::vector<Drawn> write_charts(const std::filesystem::path& folder, const results::Rows& rows,
                                 std::span<const std::string> kinds, const ChartOptions& options) {
     std::vector<Drawn> out;
@@ -116,11 +120,10 @@ std::vector<Drawn> write_charts(const std::filesystem::path& folder, const resul
         const Chart chart = kind->compose(*kind, rows, options);
         Drawn& drawn = out.emplace_back(Drawn{kind->name, {}, chart.skipped});
         if (!chart.skipped.empty()) continue;
-        for (const auto& [picture, ending] :
-             {std::pair{Picture::svg, "svg"}, std::pair{Picture::png, "png"}}) {
-            drawn.files.push_back(folder / fmt::format("{}.{}", kind->name, ending));
-            trace::write_whole(drawn.files.back(), render(chart, picture));
-        }
+        const auto [svg, png] = files_of(folder, *kind);
+        trace::write_whole(svg, render(chart, Picture::svg));
+        trace::write_whole(png, render(chart, Picture::png));
+        drawn.files = {svg, png};
     }
     return out;
 }

@@ -1,6 +1,7 @@
 // charts/chart.h -- the charts: rows in, SVG and PNG out, drawn by gnuplot. How to read each:
 // docs/charts.md. Each is drawn from one kind of rows by the file in kinds/ that bears its name.
 #pragma once
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -45,6 +46,9 @@ struct Drawn {
 
 /// By names; without, every kind for whose rows there are any. Throws as chart_kind().
 std::vector<const ChartKind*> wanted_kinds(const results::Rows& rows, std::span<const std::string> names);
+
+/// Where a chart is drawn to: FOLDER/KIND.svg and FOLDER/KIND.png.
+std::array<std::filesystem::path, 2> files_of(const std::filesystem::path& folder, const ChartKind& kind);
 
 /// Draws the wanted kinds into `folder`, made when missing; existing files are replaced.
 std::vector<Drawn> write_charts(const std::filesystem::path& folder, const results::Rows& rows,

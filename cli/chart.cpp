@@ -12,6 +12,7 @@
 #include "results/accuracy.h"
 #include "results/rows.h"
 #include "trace/error.h"
+#include "trace/file.h"
 #include "trace/text.h"
 
 namespace regather::cli {
@@ -23,15 +24,6 @@ struct Request {
     std::uint64_t tile = 16, bins = 16;
     bool force = false;
 };
-
-void refuse_to_overwrite(const Request& request, std::span<const charts::ChartKind* const> kinds) {
-    for (const charts::ChartKind* kind : kinds)
-        for (const char* ending : {".svg", ".png"})
-            if (const auto file =
-                    std::filesystem::path(request.folder) / fmt::format("{}{}", kind->name, ending);
-                std::filesystem::exists(file))
-                throw trace::UsageError(fmt::format("{} exists; --force replaces it", file.string()));
-}
 
 void run(const Request& request, const Console& console) {
     charts::ChartOptions options;
@@ -48,7 +40,8 @@ void run(const Request& request, const Console& console) {
     const auto kinds = charts::wanted_kinds(rows, request.kinds);
     if (kinds.empty())
         throw trace::DataError(fmt::format("{}: no rows, expected at least one", request.csv[0]));
-    if (!request.force) refuse_to_overwrite(request, kinds);
+    for (const charts::ChartKind* const kind : kinds)
+        trace::refuse_to_overwrite(charts::files_of(request.folder, *kind), request.force);
     bool any = false;
     std::string skipped;
     for (const auto& drawn : charts::write_charts(request.folder, rows, request.kinds, options)) {

@@ -4,10 +4,11 @@
 #include <elf.h>
 #include <fmt/format.h>
 
-#include <fstream>
+#include <cstring>
 
 #include "reorder/plugin.h"
 #include "trace/error.h"
+#include "trace/file.h"
 
 namespace regather::reorder {
 namespace {
@@ -16,23 +17,26 @@ namespace {
     throw trace::UsageError(fmt::format("{}: {}", path.string(), why));
 }
 
+template <class Part>
+bool read_at(std::string_view bytes, std::uint64_t place, Part& part) {
+    if (place > bytes.size() || bytes.size() - place < sizeof part) return false;
+    std::memcpy(&part, bytes.data() + place, sizeof part);
+    return true;
+}
+
 /// The loader maps segments without looking at the file's length: a truncated library would end the process.
 void check_segments(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file || !std::filesystem::is_regular_file(path))
-        refuse(path, "no such file; expected a shared library");
-    const std::uint64_t bytes = std::filesystem::file_size(path);
+    if (!std::filesystem::is_regular_file(path)) refuse(path, "no such file; expected a shared library");
+    const std::string bytes = trace::read_file(path);
     Elf64_Ehdr header{};
-    if (!file.read(reinterpret_cast<char*>(&header), sizeof header) ||
-        std::string_view(reinterpret_cast<const char*>(header.e_ident), SELFMAG) != ELFMAG ||
-        header.e_phentsize != sizeof(Elf64_Phdr))
+    if (!read_at(bytes, 0, header) || !bytes.starts_with(ELFMAG) || header.e_phentsize != sizeof(Elf64_Phdr))
         refuse(path, "not a shared library");
-    file.seekg(static_cast<std::streamoff>(header.e_phoff));
-    for (int i = 0; i < header.e_phnum; ++i) {
+    for (std::uint64_t i = 0; i < header.e_phnum; ++i) {
         Elf64_Phdr segment{};
-        if (!file.read(reinterpret_cast<char*>(&segment), sizeof segment) || segment.p_filesz > bytes ||
-            segment.p_offset > bytes - segment.p_filesz)
-            refuse(path, fmt::format("damaged shared library: {} bytes, its segments need more", bytes));
+        if (header.e_phoff > bytes.size() || !read_at(bytes, header.e_phoff + i * sizeof segment, segment) ||
+            segment.p_filesz > bytes.size() || segment.p_offset > bytes.size() - segment.p_filesz)
+            refuse(path,
+                   fmt::format("damaged shared library: {} bytes, its segments need more", bytes.size()));
     }
 }
 
