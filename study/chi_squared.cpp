@@ -7,7 +7,10 @@
 namespace regather::study {
 
 double chi_squared_tail(double chi_squared, double degrees) {
-    return chi_squared > 0 ? boost::math::gamma_q(degrees / 2, chi_squared / 2) : 1;
+    // Without it Boost calculates in long double, from static objects that abort where there is none
+    // (valgrind).
+    using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+    return chi_squared > 0 ? boost::math::gamma_q(degrees / 2, chi_squared / 2, InDouble()) : 1;
 }
 
 double chi_squared_p(std::span<const double> observed, std::span<const double> expected) {
