@@ -66,10 +66,10 @@ const Field& Field::check(const Kind& kind, std::string_view noun) const {
     const std::vector<std::string_view> names = names_of(std::span<const Key>(kind.keys));
     for (const Json::Member& member : *value_->members())
         if (std::find(names.begin(), names.end(), member.key) == names.end())
-            (*this)[member.key].fail(
-                "unknown key " + in_quotes(member.key),
-                one_of(member.key, names,
-                       fmt::format("keys of a {}{}{}", kind.name, noun.empty() ? "" : " ", noun)));
+            (*this)[member.key].fail("unknown key " + in_quotes(member.key),
+                                     one_of(member.key, names,
+                                            fmt::format("keys of {} {}{}{}", article(kind.name), kind.name,
+                                                        noun.empty() ? "" : " ", noun)));
     for (const Key& key : kind.keys)
         if (key.required && !has(key.name))
             Field(*value_, joined(path_, key.name), *source_).fail("nothing", key.expected);
@@ -103,16 +103,6 @@ const Kind& Field::check(std::span<const Kind> kinds, std::string_view discrimin
             return kind;
         }
     type.fail(in_quotes(name), one_of(name, names, fmt::format("{}s", noun)));
-}
-
-std::vector<std::string_view> Field::unknown_keys(const Kind& kind) const {
-    std::vector<std::string_view> unknown;
-    if (const Json::Object* const object = value_->members())
-        for (const Json::Member& member : *object)
-            if (std::none_of(kind.keys.begin(), kind.keys.end(),
-                             [&](const Key& key) { return key.name == member.key; }))
-                unknown.push_back(member.key);
-    return unknown;
 }
 
 Field Field::operator[](std::string_view key) const {

@@ -61,8 +61,6 @@ public:
     /// discriminator it is of kind `otherwise`, if there is one.
     const Kind& check(std::span<const Kind> kinds, std::string_view discriminator, std::string_view noun,
                       const Kind* otherwise = nullptr) const;
-    /// The keys of this object that `kind` does not have, for readers that name instead of refusing them.
-    std::vector<std::string_view> unknown_keys(const Kind& kind) const;
 
     bool has(std::string_view key) const { return value_->find(key) != nullptr; }
     Field operator[](std::string_view key) const;  ///< Refuses when the key is missing.

@@ -45,6 +45,11 @@ std::string alternatives(std::span<const std::string_view> words) {
     return text;
 }
 
+std::string_view article(std::string_view word) {
+    return !word.empty() && std::string_view("aeiouAEIOU").find(word[0]) != std::string_view::npos ? "an"
+                                                                                                   : "a";
+}
+
 std::string listed(std::span<const std::string_view> words) {
     std::string text;
     for (const std::string_view word : words) text += (text.empty() ? "" : ", ") + std::string(word);

@@ -17,6 +17,9 @@ std::vector<std::string_view> nearest_words(std::string_view word, std::span<con
 /// `"a"`, `"a" or "b"`, `"a", "b" or "c"`.
 std::string alternatives(std::span<const std::string_view> words);
 
+/// "an" before a vowel, "a" before all else: by letter, so not for "hour" or "unit".
+std::string_view article(std::string_view word);
+
 /// `a, b, c`.
 std::string listed(std::span<const std::string_view> words);
 

@@ -32,8 +32,10 @@ TEST(Field, AnObjectIsReadByTheTableOfItsKeys) {
     EXPECT_EQ(refusal("{\"a\\nb\": 0}", check),
               "x.json: line 1, \"a\\nb\": found unknown key \"a\\nb\", expected \"at\" (keys of a lamp: "
               "power, name, at)");
-    const Document document(R"({"x": 1, "power": 2, "y": 3})", "x.json");
-    EXPECT_EQ(document.root().unknown_keys(lamp), (std::vector<std::string_view>{"x", "y"}));
+    const Kind experiment{"experiment", {{"scene", true, "a scene"}}};
+    EXPECT_EQ(refusal(R"({"scnee": 1})", [&](const Field& root) { root.check(experiment); }),
+              "x.json: line 1, scnee: found unknown key \"scnee\", expected \"scene\" (keys of an "
+              "experiment: scene)");
 }
 
 TEST(Field, KindsAreToldApartByAKey) {
