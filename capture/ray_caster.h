@@ -36,8 +36,8 @@ public:
     RayCaster& operator=(const RayCaster&) = delete;
 
     /// `direction` has unit length. A zero or non-finite direction, or a non-finite origin, hits nothing.
-    /// Surfaces that the origin lies on are not hit: nothing within an eighth of largest_offset() is. Any
-    /// number of threads may call.
+    /// Surfaces that the origin lies on are not hit: nothing within an eighth of the farthest that offset()
+    /// moves a point is. Any number of threads may call.
     std::optional<Hit> closest(Vec3 origin, Vec3 direction) const;
     bool occluded(Vec3 origin, Vec3 direction, float extent) const;
 
@@ -49,9 +49,7 @@ public:
     Vec3 offset(Vec3 position, Vec3 normal) const {
         return {moved(position.x, normal.x), moved(position.y, normal.y), moved(position.z, normal.z)};
     }
-    /// The farthest that offset() moves a point of the scene, and that closest() moves a hit inwards [scene
-    /// units].
-    float largest_offset() const { return largest_offset_; }
+    /// The farthest that closest() moves a hit inwards [scene units].
     float inset() const { return inset_; }
 
 private:

@@ -14,6 +14,13 @@ namespace regather::charts {
 namespace {
 
 constexpr bool tiles = true;
+/// The look of an ordering is the same in every chart. Colours: Okabe & Ito's colour-blind-safe palette and
+/// shades that differ from it in lightness; each has its own point marker too, for prints in grey.
+struct Style {
+    std::string_view ordering, label, colour;
+    int marker;             // gnuplot's point type
+    bool can_tile = false;  // without a tile it runs over the whole image, and says so
+};
 constexpr Style known[] = {
     {"random", "Random", "#999999", 3},
     {"naive", "Naive", "#000000", 2},
@@ -158,10 +165,6 @@ void name_bins(std::string& label, std::uint64_t bins) {
 }
 
 }  // namespace
-
-std::span<const Style> styles() {
-    return known;
-}
 
 double axis_value(const results::Row& row, Along along) {
     const results::Count& value = along == Along::tile   ? row.tile

@@ -24,15 +24,6 @@ struct Slice {
     bool merge_frames = false;  ///< Rows that differ in their frame alone share a place: Curve::frames.
 };
 
-/// The look of an ordering is the same in every chart. Colours: Okabe & Ito's colour-blind-safe palette and
-/// shades that differ from it in lightness; each has its own point marker too, for prints in grey.
-struct Style {
-    std::string_view ordering, label, colour;
-    int marker;             ///< gnuplot's point type.
-    bool can_tile = false;  ///< Without a tile it runs over the whole image, and says so.
-};
-std::span<const Style> styles();
-
 struct Curve {
     std::string label;
     std::string colour;

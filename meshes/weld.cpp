@@ -137,10 +137,6 @@ std::vector<std::uint32_t> weld(const Surface& surface) {
     return place;
 }
 
-bool is_closed(const Surface& surface) {
-    return open_edges(surface.triangles, weld(surface)).empty();
-}
-
 Surface with_smooth_normals(const Surface& surface, double crease_degrees) {
     const bool has_normals =
         surface.normals.size() == surface.vertices.size() &&

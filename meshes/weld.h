@@ -12,9 +12,6 @@ namespace regather::meshes {
 /// One number a vertex: equal for vertices at equal coordinates, numbered from 0 by first appearance.
 std::vector<std::uint32_t> weld(const Surface& surface);
 
-/// True when every edge has as many triangles in one direction as in the other: light cannot get in.
-bool is_closed(const Surface& surface);
-
 /// A normal at each corner: the mean, by area, of the triangles around it whose own normals differ by less
 /// than `crease_degrees`. Vertices are split where corners disagree. A surface that has normals keeps them.
 Surface with_smooth_normals(const Surface& surface, double crease_degrees);

@@ -89,12 +89,4 @@ private:
     std::size_t row_bytes_ = 0;
 };
 
-/// A whole small column at once.
-template <class T>
-ColumnDigest write_column(const std::filesystem::path& path, std::span<const T> rows) {
-    ColumnWriter writer(path, column_type<T>());
-    writer.append(rows);
-    return writer.finish();
-}
-
 }  // namespace regather::trace

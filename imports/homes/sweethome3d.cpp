@@ -416,12 +416,6 @@ private:
 
 }  // namespace
 
-std::vector<std::string> homes_in(const std::filesystem::path& archive) {
-    std::vector<std::string> names;
-    for (const std::string& entry : home_entries(Zip::open(archive))) names.push_back(home_name(entry));
-    return names;
-}
-
 ImportedScene import_sweethome3d(const std::filesystem::path& archive, const std::string& home) {
     const Zip zip = Zip::open(archive);
     const std::string entry = chosen_entry(zip, home);

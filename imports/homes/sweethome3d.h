@@ -4,7 +4,6 @@
 #pragma once
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "imports/scene_file.h"
 
@@ -13,11 +12,9 @@ namespace regather::imports {
 inline constexpr std::uint64_t most_home_bytes = 64u << 20;       ///< Of the XML.
 inline constexpr std::uint64_t most_home_triangles = 20'000'000;  ///< Of all walls and furniture together.
 
-/// The names of the homes in an archive: "Home" for a .sh3d file, "Studio" for ".../examples/Studio.xml".
-std::vector<std::string> homes_in(const std::filesystem::path& archive);
-
-/// `home` may be empty when the archive has one. Throws trace::DataError for a damaged archive or home;
-/// trace::UsageError for a home that it does not have, naming the nearest.
+/// `home`: "Home" of a .sh3d file, "Studio" of ".../examples/Studio.xml"; it may be empty when the archive
+/// has one. Throws trace::DataError for a damaged archive or home; trace::UsageError for a home that it does
+/// not have, naming the nearest.
 ImportedScene import_sweethome3d(const std::filesystem::path& archive, const std::string& home);
 
 }  // namespace regather::imports

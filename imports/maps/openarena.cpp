@@ -463,10 +463,6 @@ std::string author_of(const Pk3Archives& archives, const std::string& map) {
 
 }  // namespace
 
-std::vector<std::string> openarena_maps(std::span<const std::filesystem::path> archives) {
-    return map_names(Pk3Archives(archives));
-}
-
 ImportedScene import_openarena(std::span<const std::filesystem::path> archives,
                                const OpenArenaOptions& options) {
     if (options.subdivision < 1 || options.subdivision > 32)

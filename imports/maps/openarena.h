@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "imports/scene_file.h"
 
@@ -19,9 +18,6 @@ struct OpenArenaOptions {
     std::string map;                ///< "oa_shouse" for maps/oa_shouse.bsp.
     std::uint32_t subdivision = 6;  ///< Steps along each side of a curved patch, 1 to 32.
 };
-
-/// Names of the maps in .pk3 archives, sorted, each once.
-std::vector<std::string> openarena_maps(std::span<const std::filesystem::path> archives);
 
 /// Where archives have an entry of the same name, the last one counts, as in the game. Throws
 /// trace::UsageError when the map is not named or in none of them (it lists those that are), trace::DataError

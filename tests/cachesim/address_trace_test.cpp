@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string>
 
+#include "tests/column.h"
 #include "tests/scratch.h"
 #include "trace/error.h"
 #include "trace/npy.h"
@@ -28,7 +29,7 @@ protected:
     }
     template <class T>
     path column(const std::string& name, const std::vector<T>& rows) const {
-        trace::write_column<T>(folder_ / name, rows);
+        write_column<T>(folder_ / name, rows);
         return folder_ / name;
     }
     path bytes_as(const std::string& name, const trace::ColumnType& type,

@@ -108,7 +108,7 @@ TEST(RayCaster, OffsetsScaleWithTheScene) {
             height,
             0x1p-18f);  // of the scene's extent, which is 2: twice the errors that docs/stability.md adds up
         EXPECT_LT(height, 0x1p-16f);
-        EXPECT_LE(length(step), caster.largest_offset() * 1.01f);
+        EXPECT_LE(length(step) / scale, 0x1p-17f * 1.01f);  // 2^-18 of that extent
         EXPECT_LT(length(cross(step * (1 / length(step)), normal)), 1e-2f);
     }
 }

@@ -118,12 +118,19 @@ TEST(Series, ARepeatedRowIsOneAndAContradictionIsRefused) {
 }
 
 TEST(Series, NoTwoOrderingsLookAlike) {
-    std::set<std::string_view> colours;
+    std::vector<Row> known;
+    for (const char* ordering : {"random", "naive", "tiled", "direction-binned", "direction-binned+hashed",
+                                 "hashed", "swizzle", "morton", "hilbert", "kd-leaf", "bvh-leaf"})
+        known.push_back(made_row(ordering, {}, {}, 1));
+    std::set<std::string> colours, names;
     std::set<int> markers;
-    for (const Style& style : styles()) {
-        EXPECT_TRUE(colours.insert(style.colour).second) << style.ordering;
-        EXPECT_TRUE(markers.insert(style.marker).second) << style.ordering;
+    for (const Curve& curve : curves(known, Along::cache, {})) {
+        EXPECT_NE(curve.label, curve.rows.front()->ordering);  // it has a name for people
+        EXPECT_TRUE(names.insert(curve.label).second) << curve.label;
+        EXPECT_TRUE(colours.insert(curve.colour).second) << curve.label;
+        EXPECT_TRUE(markers.insert(curve.marker).second) << curve.label;
     }
+    EXPECT_EQ(names.size(), known.size());
     const std::vector<Row> strangers = {made_row("mine", {}, {}, 1), made_row("yours", {}, {}, 2)};
     const auto all = curves(strangers, Along::tile, {});
     EXPECT_THAT(labels(all), ElementsAre("mine", "yours"));

@@ -3,6 +3,7 @@
 
 #include "scenes/catalogue.h"
 #include "tests/cli/expect.h"
+#include "tests/column.h"
 #include "trace/npy.h"
 
 namespace regather::cli {
@@ -99,7 +100,7 @@ TEST_F(Chart, ADamagedCsvIsRefusedWithTheLine) {
 
 TEST(Cachesim, AnAddressTraceBecomesATable) {
     const Scratch scratch;
-    trace::write_column<std::uint64_t>(scratch / "addresses.npy", std::vector<std::uint64_t>{0, 64, 0, 128});
+    write_column<std::uint64_t>(scratch / "addresses.npy", std::vector<std::uint64_t>{0, 64, 0, 128});
     const std::vector<std::string> words{
         "cachesim", (scratch / "addresses.npy").string(), "--size", "128", "--line", "64", "--ways",
         "1,full"};

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "tests/cli/expect.h"
+#include "tests/column.h"
 #include "trace/npy.h"
 
 namespace regather::cli {
@@ -35,9 +36,9 @@ protected:
                   (std::string("cachesim ") + testing::UnitTest::GetInstance()->current_test_info()->name());
         std::filesystem::remove_all(folder_);
         std::filesystem::create_directories(folder_);
-        trace::write_column<std::uint64_t>(file("addresses.npy"),
-                                           std::vector<std::uint64_t>{0, 64, 128, 0, 64, 192});
-        trace::write_column<std::uint8_t>(file("writes.npy"), std::vector<std::uint8_t>{0, 0, 0, 0, 1, 0});
+        write_column<std::uint64_t>(file("addresses.npy"),
+                                    std::vector<std::uint64_t>{0, 64, 128, 0, 64, 192});
+        write_column<std::uint8_t>(file("writes.npy"), std::vector<std::uint8_t>{0, 0, 0, 0, 1, 0});
     }
     void TearDown() override { std::filesystem::remove_all(folder_); }
 
@@ -103,7 +104,7 @@ TEST_F(CachesimCommand, RowsSayHowWritesWereTreatedAndWhichSetALineGoesTo) {
 }
 
 TEST_F(CachesimCommand, SizesStraddleLines) {
-    trace::write_column<std::uint32_t>(file("sizes.npy"), std::vector<std::uint32_t>{65, 64, 1, 1, 1, 129});
+    write_column<std::uint32_t>(file("sizes.npy"), std::vector<std::uint32_t>{65, 64, 1, 1, 1, 129});
     // Lines: 0 1 | 1 | 2 | 0 | 1 | 3 4 5: 9 accesses, and each of the 6 lines is fetched once.
     run({file("addresses.npy"), "--sizes", file("sizes.npy"), "--size", "1K", "--line", "64", "--ways",
          "full", "--csv", file("misses.csv")});
@@ -269,7 +270,7 @@ TEST_F(CachesimCommand, AnImpossibleCombinationIsLeftOutAndSaid) {
 TEST_F(CachesimCommand, AllLruTellsWhatEachCacheAskedForAloneTells) {
     std::vector<std::uint64_t> addresses;
     for (std::uint64_t i = 0; i < 20'000; ++i) addresses.push_back(i * i % 977 * 40 + i % 3 * 4096);
-    trace::write_column<std::uint64_t>(file("many.npy"), addresses);
+    write_column<std::uint64_t>(file("many.npy"), addresses);
     run({file("many.npy"), "--all-lru", "--line", "64,128", "--csv", file("all.csv")});
     run({file("many.npy"), "--size", "4K,16K", "--line", "64,128", "--ways", "1,8,full", "--csv",
          file("some.csv")});

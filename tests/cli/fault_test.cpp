@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include "tests/cli/expect.h"
+#include "tests/column.h"
 #include "trace/npy.h"
 
 namespace regather::cli {
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 TEST(Fault, AColumnThatIsCutShortWhileItIsReadIsNamed) {
     const Scratch scratch;
     const fs::path path = scratch / "column.npy";
-    trace::write_column<std::uint64_t>(path, std::vector<std::uint64_t>(100'000, 7));
+    write_column<std::uint64_t>(path, std::vector<std::uint64_t>(100'000, 7));
     const pid_t child = ::fork();
     if (child == 0) {
         const int err = ::open((scratch / "err").c_str(), O_WRONLY | O_CREAT, 0600);

@@ -6,6 +6,7 @@
 #include "reorder/catalogue.h"
 #include "results/csv.h"
 #include "tests/cli/expect.h"
+#include "tests/column.h"
 #include "trace/folder.h"
 
 namespace regather::cli {
@@ -110,8 +111,8 @@ TEST(Replay, AUsersLibraryIsAnOrdering) {
 
 TEST(Replay, AColumnThatWasLeftOutIsNamedWithItsReason) {
     const Scratch scratch;
-    trace::write_column<trace::Vec3>(scratch / "photon_position.npy", std::vector<trace::Vec3>{{0, 0, 0}});
-    trace::write_column<trace::Vec3>(scratch / "query_position.npy", std::vector<trace::Vec3>{{0, 0, 0}});
+    write_column<trace::Vec3>(scratch / "photon_position.npy", std::vector<trace::Vec3>{{0, 0, 0}});
+    write_column<trace::Vec3>(scratch / "query_position.npy", std::vector<trace::Vec3>{{0, 0, 0}});
     expect_done({"walk", scratch.path().string(), "-o", (scratch / "trace").string()});
     for (const auto& [ordering, column] : {std::pair{"direction-binned", "query_direction"},
                                            {"kd-leaf", "query_leaf_kd"},
@@ -222,7 +223,7 @@ constexpr Damage damages[] = {
     {"deleted", [](const fs::path& column, std::string) { fs::remove(column); }},
     {"another column under its name",
      [](const fs::path& column, std::string) {
-         trace::write_column<std::uint64_t>(column, std::vector<std::uint64_t>{1, 2, 3});
+         write_column<std::uint64_t>(column, std::vector<std::uint64_t>{1, 2, 3});
      }},
 };
 

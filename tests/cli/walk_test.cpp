@@ -4,6 +4,7 @@
 
 #include "results/csv.h"
 #include "tests/cli/expect.h"
+#include "tests/column.h"
 #include "trace/folder.h"
 #include "trace/npy.h"
 
@@ -41,7 +42,7 @@ protected:
     }
     template <class T>
     void column(const std::string& name, const std::vector<T>& rows) const {
-        trace::write_column<T>(columns_ / (name + ".npy"), rows);
+        write_column<T>(columns_ / (name + ".npy"), rows);
     }
     std::vector<std::string> words(const std::vector<std::string>& more = {}) const {
         return std::vector<std::string>{"walk", columns_.string(), "-o", trace_.string(), "--k", "8"} + more;

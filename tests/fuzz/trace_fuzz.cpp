@@ -1,4 +1,5 @@
 // Any bytes as the trace.json of a folder with empty columns.
+#include "tests/column.h"
 #include "tests/fuzz/input.h"
 #include "trace/folder.h"
 
@@ -6,11 +7,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace regather;
     const std::filesystem::path folder = fuzz::file_of(data, size, "trace.json").parent_path();
     static const bool written = [&] {
-        trace::write_column<trace::Photon>(folder / "photon.npy", {});
-        trace::write_column<trace::Vec3>(folder / "query_position.npy", {});
-        trace::write_column<std::uint32_t>(folder / "query_pixel.npy", {});
-        trace::write_column<std::uint32_t>(folder / "query_walk_bytes.npy", {});
-        trace::write_column<std::uint8_t>(folder / "walk.npy", {});
+        write_column<trace::Photon>(folder / "photon.npy", {});
+        write_column<trace::Vec3>(folder / "query_position.npy", {});
+        write_column<std::uint32_t>(folder / "query_pixel.npy", {});
+        write_column<std::uint32_t>(folder / "query_walk_bytes.npy", {});
+        write_column<std::uint8_t>(folder / "walk.npy", {});
         return true;
     }();
     return fuzz::read_or_refuse([&] {

@@ -4,13 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "imports/furniture/furniture_catalogue.h"
-#include "meshes/weld.h"
 #include "tests/imports/archive.h"
+#include "tests/scenes/closed_surface.h"
 #include "tests/scratch.h"
 
 namespace regather::imports {
 namespace {
 
+using scenes::is_closed;
 using ::testing::HasSubstr;
 
 TEST(FurnitureCatalogue, PropertiesAreLatin1WithEscapes) {

@@ -6,9 +6,12 @@
 #include <numbers>
 
 #include "meshes/weld.h"
+#include "tests/scenes/closed_surface.h"
 #include "trace/bounds.h"
 
 namespace regather::imports {
+
+using scenes::is_closed;
 
 using meshes::as_solid;
 using scenes::Box;

@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "tests/column.h"
 #include "tests/scratch.h"
 #include "trace/file.h"
 

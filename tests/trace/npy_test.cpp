@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include "tests/column.h"
 #include "tests/scratch.h"
 
 namespace regather::trace {
