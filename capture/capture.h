@@ -14,7 +14,7 @@
 
 #include "capture/film.h"
 #include "capture/gather_pass.h"
-#include "capture/image.h"
+#include "capture/images/image.h"
 #include "capture/photon_pass.h"
 #include "capture/query_pass.h"
 #include "capture/trace_columns.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "capture/gather_pass.h"
-#include "capture/image.h"
+#include "capture/images/image.h"
 #include "capture/query_pass.h"
 
 namespace regather::capture {

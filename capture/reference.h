@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "capture/image.h"
+#include "capture/images/image.h"
 #include "capture/path_tracer.h"
 
 namespace regather::capture {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "cachesim/cache_list.h"
-#include "capture/image.h"
+#include "capture/images/image.h"
 #include "charts/heat_map.h"
 #include "cli/command.h"
 #include "cli/commands.h"

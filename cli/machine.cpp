@@ -5,7 +5,7 @@
 #include <array>
 #include <memory>
 
-#include "cachesim/machine.h"
+#include "cachesim/machines/machine.h"
 #include "cli/command.h"
 #include "cli/commands.h"
 #include "results/table.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "capture/contact_sheet.h"
+#include "capture/images/contact_sheet.h"
 #include "capture/visibility.h"
 #include "cli/command.h"
 #include "cli/commands.h"

@@ -7,7 +7,7 @@
 
 #include "cachesim/cache_list.h"
 #include "cachesim/family_sweep.h"
-#include "cachesim/policy_sweep.h"
+#include "cachesim/policies/policy_sweep.h"
 #include "trace/error.h"
 
 namespace regather::experiment {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cachesim/address_trace.h"
-#include "cachesim/machine.h"
-#include "cachesim/policy_sweep.h"
+#include "cachesim/machines/machine.h"
+#include "cachesim/policies/policy_sweep.h"
 #include "experiment/progress.h"
 #include "results/cache_row.h"
 #include "results/machine_row.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cachesim/cache.h"
-#include "cachesim/hierarchy.h"
+#include "cachesim/machines/hierarchy.h"
 #include "reorder/catalogue.h"
 #include "replay/replay.h"
 #include "replay/set_sample.h"

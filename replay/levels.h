@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "cachesim/hierarchy.h"
+#include "cachesim/machines/hierarchy.h"
 #include "replay/replay.h"
 
 namespace regather::replay {

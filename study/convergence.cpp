@@ -8,8 +8,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "capture/flip.h"
-#include "capture/image_error.h"
+#include "capture/images/flip.h"
+#include "capture/images/image_error.h"
 #include "study/interior.h"
 
 namespace regather::study {

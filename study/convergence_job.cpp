@@ -6,7 +6,7 @@
 
 #include "capture/capture.h"
 #include "capture/fingerprint.h"
-#include "capture/image_strip.h"
+#include "capture/images/image_strip.h"
 #include "experiment/reference_job.h"
 #include "results/csv.h"
 #include "scenes/camera_path.h"

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "capture/image.h"
+#include "capture/images/image.h"
 
 namespace regather::study {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "cachesim/cache.h"
-#include "cachesim/policy.h"
+#include "cachesim/policies/policy.h"
 
 namespace regather::cachesim {
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cachesim/policy_sweep.h"
+#include "cachesim/policies/policy_sweep.h"
 #include "tests/cachesim/brute_force.h"
 
 namespace regather::cachesim {

@@ -16,7 +16,7 @@
 #include "spatial/nearest.h"
 #include "spatial/walk.h"
 #include "tests/capture/counts.h"
-#include "tests/capture/picture.h"
+#include "tests/capture/images/picture.h"
 #include "tests/capture/small_scenes.h"
 #include "tests/scratch.h"
 

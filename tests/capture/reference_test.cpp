@@ -11,7 +11,7 @@
 #include <string>
 
 #include "capture/capture.h"
-#include "tests/capture/picture.h"
+#include "tests/capture/images/picture.h"
 #include "tests/capture/small_scenes.h"
 #include "trace/error.h"
 

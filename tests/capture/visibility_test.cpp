@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "capture/contact_sheet.h"
+#include "capture/images/contact_sheet.h"
 #include "scenes/camera_path.h"
 #include "scenes/loader.h"
 #include "scenes/tessellation.h"

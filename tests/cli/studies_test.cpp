@@ -1,6 +1,6 @@
 // The commands that say whether pictures can be trusted: reference, converge, stability; and heatmap, frames
 // and layers of captures.
-#include "capture/image.h"
+#include "capture/images/image.h"
 #include "results/convergence_row.h"
 #include "results/csv.h"
 #include "results/stability_row.h"

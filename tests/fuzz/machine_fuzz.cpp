@@ -1,5 +1,5 @@
 // Any bytes as a machine file: a machine that is read can be built.
-#include "cachesim/machine.h"
+#include "cachesim/machines/machine.h"
 
 #include "tests/fuzz/input.h"
 
