@@ -78,80 +78,120 @@ capture::Tone CaptureOptions::tone_curve() const {
     return chosen<capture::Tone>(tone, capture::tone_names, "tone");
 }
 
+std::span<const CaptureKey> capture_keys() {
+    using Options = CaptureOptions;
+    static const std::vector<CaptureKey> keys{
+        {"width", &Options::width, "image width [pixels]", 1, most_pixels},
+        {"height", &Options::height, "image height [pixels]", 1, most_pixels},
+        {"samples", &Options::samples, "eye rays a pixel; one goes through its centre", 1, most_samples},
+        {.name = "mode",
+         .value = &Options::mode,
+         .help = "how photons are seen: by final gather rays (equation 3), or direct (equation 2)",
+         .words = capture::visualisation_names},
+        {"gather_rays", &Options::gather_rays, "final gather rays a pixel (N)", 0, most_rays},
+        {"shadow_rays", &Options::shadow_rays, "shadow rays per shaded point and light, of up to four lights",
+         0, most_rays},
+        {"photons", &Options::photons, "photons to store", 0, most_photons},
+        {"k", &Options::k, "photons of a gather", 1, most_photons},
+        {.name = "radius",
+         .value = &Options::radius,
+         .help = "maximum radius of a gather [scene units]; 0 or inf: unlimited",
+         .infinite = true},
+        {.name = "filter",
+         .value = &Options::filter,
+         .help = "weight of the photons of a gather by their distance",
+         .words = capture::filter_names},
+        {.name = "surface_check",
+         .value = &Options::surface_check,
+         .help = "use photons of surfaces that face elsewhere, too"},
+        {"caustic_photons", &Options::caustic_photons, "photons of the caustic map; 0: no such map", 0,
+         most_photons},
+        {"caustic_k", &Options::caustic_k, "photons of a gather in the caustic map", 1, most_photons},
+        {.name = "caustic_radius",
+         .value = &Options::caustic_radius,
+         .help = "its maximum radius [scene units]; 0 or inf: unlimited",
+         .infinite = true},
+        {.name = "caustic_filter",
+         .value = &Options::caustic_filter,
+         .help = "its filter",
+         .words = capture::filter_names},
+        {"keep", &Options::keep,
+         "parts to build although the scene has no need of them (regather info SCENE lists them)"},
+        {"frames", &Options::frames,
+         "frames of the camera path: 7, or 0,10,20, or 0:30:5 (from, below, step)"},
+        {"exposure", &Options::exposure, "of image.png: factor of the radiance; 0: by the image's mean"},
+        {.name = "tone",
+         .value = &Options::tone,
+         .help = "tone curve of image.png",
+         .words = capture::tone_names},
+        {"seed", &Options::seed, "of all random numbers"},
+        {"gather_order", &Options::gather_order,
+         "ordering of the searches within a batch of pixels; changes the time, not the result"},
+        {"rays", &Options::rays, "leave the ray columns out"},
+    };
+    return keys;
+}
+
+std::vector<IdleKeys> idle_keys(const CaptureOptions& options) {
+    std::vector<IdleKeys> idle;
+    if (options.mode == "direct")
+        idle.push_back({{"gather_rays", "shadow_rays"}, "mode", "direct", "casts no such rays"});
+    if (options.caustic_photons == 0)
+        idle.push_back(
+            {{"caustic_k", "caustic_radius", "caustic_filter"}, "caustic_photons", "0", "makes no such map"});
+    return idle;
+}
+
+namespace {
+
+/// What a message says was expected.
+std::string_view expected(const CaptureKey& key) {
+    constexpr std::string_view of_type[] = {
+        "a whole number", "a whole number", "a number that is not negative",
+        "true or false",  "a text",         "a part or a list of parts"};
+    return key.infinite ? "a number that is not negative, or \"inf\"" : of_type[key.value.index()];
+}
+
+void read(const trace::Field& in, const CaptureKey& key, double& to) {
+    constexpr double most = std::numeric_limits<double>::max();
+    const bool unlimited = key.infinite && in.value().text() && in.text() == "inf";
+    to = unlimited ? std::numeric_limits<double>::infinity() : in.number(0, most, expected(key));
+}
+
+void read(const trace::Field& in, const CaptureKey& key, std::uint32_t& to) {
+    to = in.whole(static_cast<std::uint32_t>(key.least), static_cast<std::uint32_t>(key.most));
+}
+void read(const trace::Field& in, const CaptureKey& key, std::uint64_t& to) {
+    to = in.whole<std::uint64_t>(key.least, key.most);
+}
+void read(const trace::Field& in, const CaptureKey&, bool& to) {
+    to = in.truth();
+}
+void read(const trace::Field& in, const CaptureKey&, std::string& to) {
+    to = in.text();
+}
+void read(const trace::Field& in, const CaptureKey&, std::vector<std::string>& to) {
+    to = in.texts();
+}
+
+}  // namespace
+
 CaptureOptions capture_options(const trace::Field& in) {
-    static constexpr bool optional = false;
-    static constexpr std::string_view count = "a whole number", text = "a text",
-                                      length = "a number that is not negative",
-                                      radius = "a number that is not negative, or \"inf\"";
-    static const trace::Kind kind{"capture",
-                                  {{"width", optional, count},
-                                   {"height", optional, count},
-                                   {"samples", optional, count},
-                                   {"mode", optional, text},
-                                   {"gather_rays", optional, count},
-                                   {"shadow_rays", optional, count},
-                                   {"photons", optional, count},
-                                   {"k", optional, count},
-                                   {"radius", optional, radius},
-                                   {"filter", optional, text},
-                                   {"surface_check", optional, "true or false"},
-                                   {"caustic_photons", optional, count},
-                                   {"caustic_k", optional, count},
-                                   {"caustic_radius", optional, radius},
-                                   {"caustic_filter", optional, text},
-                                   {"keep", optional, "a part or a list of parts"},
-                                   {"frames", optional, text},
-                                   {"exposure", optional, length},
-                                   {"tone", optional, text},
-                                   {"seed", optional, count},
-                                   {"gather_order", optional, text},
-                                   {"rays", optional, "true or false"}}};
+    static const trace::Kind kind = [] {
+        trace::Kind of_keys{"capture", {}};
+        for (const CaptureKey& key : capture_keys()) of_keys.keys.push_back({key.name, false, expected(key)});
+        return of_keys;
+    }();
     in.check(kind);
     CaptureOptions options;
-    const auto whole = [&](const char* key, std::uint32_t& value, std::uint32_t least, std::uint32_t most) {
-        if (in.has(key)) value = in[key].whole(least, most);
-    };
-    whole("width", options.width, 1, most_pixels);
-    whole("height", options.height, 1, most_pixels);
-    whole("samples", options.samples, 1, most_samples);
-    whole("gather_rays", options.gather_rays, 0, 1u << 20);
-    whole("shadow_rays", options.shadow_rays, 0, 1u << 20);
-    whole("photons", options.photons, 0, most_photons);
-    whole("k", options.k, 1, most_photons);
-    whole("caustic_photons", options.caustic_photons, 0, most_photons);
-    whole("caustic_k", options.caustic_k, 1, most_photons);
-    for (auto [key, value] : {std::pair<const char*, double*>{"radius", &options.radius},
-                              {"caustic_radius", &options.caustic_radius},
-                              {"exposure", &options.exposure}}) {
-        if (!in.has(key)) continue;
-        const bool unlimited =
-            value != &options.exposure && in[key].value().text() && in[key].text() == "inf";
-        *value = unlimited ? std::numeric_limits<double>::infinity()
-                           : in[key].number(0, std::numeric_limits<double>::max(), kind.key(key).expected);
-    }
-    for (auto [key, value] : {std::pair<const char*, std::string*>{"mode", &options.mode},
-                              {"filter", &options.filter},
-                              {"caustic_filter", &options.caustic_filter},
-                              {"tone", &options.tone},
-                              {"frames", &options.frames},
-                              {"gather_order", &options.gather_order}})
-        if (in.has(key)) *value = in[key].text();
-    for (auto [key, value] :
-         {std::pair<const char*, bool*>{"surface_check", &options.surface_check}, {"rays", &options.rays}})
-        if (in.has(key)) *value = in[key].truth();
-    if (options.mode == "direct")
-        for (const char* const key : {"gather_rays", "shadow_rays"})
+    for (const CaptureKey& key : capture_keys())
+        if (const std::optional<trace::Field> field = in.get(key.name))
+            std::visit([&](const auto member) { read(*field, key, options.*member); }, key.value);
+    for (const IdleKeys& idle : idle_keys(options))
+        for (const std::string_view key : idle.keys)
             if (in.has(key))
-                in[key].refuse(
-                    "found beside \"mode\": \"direct\", which casts no such rays, expected one of them");
-    if (options.caustic_photons == 0)
-        for (const char* const key : {"caustic_k", "caustic_radius", "caustic_filter"})
-            if (in.has(key))
-                in[key].refuse(
-                    "found beside \"caustic_photons\": 0, which makes no such map, expected one of them");
-    if (in.has("keep")) options.keep = in["keep"].texts();
-    if (in.has("seed"))
-        options.seed = in["seed"].whole<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max());
+                in[key].refuse(fmt::format("found beside \"{}\": {}, which {}, expected one of them",
+                                           idle.beside, in[idle.beside].found(), idle.reason));
     return options;
 }
 

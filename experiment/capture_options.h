@@ -1,7 +1,11 @@
 // experiment/capture_options.h -- what a capture can be asked for, from a command line or an experiment file.
 #pragma once
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "capture/capture.h"
@@ -39,6 +43,29 @@ struct CaptureOptions {
     capture::CaptureConfig config() const;
     capture::Tone tone_curve() const;  ///< Throws as config().
 };
+
+/// One of the options: a key of an experiment's "capture" object, and of a command line with dashes
+/// ("gather_rays", "--gather-rays"); what is true by default is denied there ("--no-rays").
+struct CaptureKey {
+    std::string_view name;
+    std::variant<std::uint32_t CaptureOptions::*, std::uint64_t CaptureOptions::*, double CaptureOptions::*,
+                 bool CaptureOptions::*, std::string CaptureOptions::*,
+                 std::vector<std::string> CaptureOptions::*>
+        value;
+    std::string_view help;  ///< Of a truth: of its denial.
+    std::uint64_t least = 0, most = std::numeric_limits<std::uint64_t>::max();  ///< Of a whole number.
+    std::span<const char* const> words = {};  ///< Of a text that is one of some.
+    bool infinite = false;                    ///< A number that may be infinity; none is below 0.
+};
+/// The one table of them.
+std::span<const CaptureKey> capture_keys();
+
+/// Keys that have no effect beside the value of another: to be refused where they are given.
+struct IdleKeys {
+    std::vector<std::string_view> keys;
+    std::string_view beside, value, reason;  ///< "mode", "direct", "casts no such rays".
+};
+std::vector<IdleKeys> idle_keys(const CaptureOptions& options);
 
 /// The "capture" object of an experiment. Throws trace::DataError.
 CaptureOptions capture_options(const trace::Field& object);
