@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "scenes/camera_path.h"
 #include "scenes/tessellation.h"
 
 namespace regather::capture {
@@ -46,6 +47,17 @@ double share_seen(const Scene& scene, const RayCaster& caster, std::span<const s
         if (seen[t] != 0) part += area;
     }
     return all > 0 ? part / all : 0;
+}
+
+double share_seen(const Scene& scene) {
+    return share_seen(scene, RayCaster(scene), {&scene.camera, 1});
+}
+
+double share_seen_over_path(const Scene& scene) {
+    std::vector<scenes::Camera> cameras;
+    for (std::uint32_t frame = 0; frame < scene.frames; ++frame)
+        cameras.push_back(scenes::camera_at(scene, frame));
+    return share_seen(scene, RayCaster(scene), cameras);
 }
 
 }  // namespace regather::capture

@@ -21,5 +21,9 @@ std::vector<std::uint8_t> triangles_seen(const Scene& scene, const RayCaster& ca
 /// The area of the triangles that at least one of the cameras sees, over that of all triangles; 0 for no
 /// camera.
 double share_seen(const Scene& scene, const RayCaster& caster, std::span<const scenes::Camera> cameras);
+/// Of the scene's standing camera.
+double share_seen(const Scene& scene);
+/// Of its camera in all frames of its path.
+double share_seen_over_path(const Scene& scene);
 
 }  // namespace regather::capture

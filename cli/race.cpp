@@ -2,24 +2,17 @@
 // clock.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <limits>
 #include <memory>
 
 #include "cli/command.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "cli/version.h"
-#include "experiment/measurement.h"
-#include "experiment/race.h"
-#include "experiment/workload.h"
-#include "replay/verification.h"
+#include "experiment/trace_race.h"
 #include "results/csv.h"
 #include "results/provenance.h"
 #include "results/race_row.h"
-#include "spatial/photon_kd.h"
 #include "trace/error.h"
 #include "trace/folder.h"
 
@@ -47,110 +40,24 @@ std::vector<experiment::Structure> parse_structures(const std::vector<std::strin
     return parsed;
 }
 
-/// All of the trace's queries, or a contiguous part from the middle of the capture.
-reorder::Workload raced(trace::TraceReader& trace, const reorder::Reads& reads, std::uint64_t asked_for) {
-    const std::uint64_t all = trace.info().queries, wanted = asked_for == 0 ? all : asked_for;
-    if (wanted > all)
-        throw trace::UsageError(
-            fmt::format("--queries: found {}, expected at most the trace's {}", wanted, all));
-    if (all == 0)
-        throw trace::DataError(fmt::format("{}: found no queries, expected at least 1",
-                                           (trace.folder() / "query_position.npy").string()));
-    return experiment::middle_of(experiment::workload(trace, reads), wanted);
-}
-
-struct Result {
-    const trace::TraceInfo& info;
-    const std::vector<reorder::ParsedOrdering>& orderings;
-    const experiment::RaceConfig& config;
-    std::uint64_t queries;
-    experiment::Race race;
-};
-
-std::vector<results::RaceRow> rows_of(const Result& result) {
-    std::vector<results::RaceRow> rows;
-    for (const experiment::Standing& standing : result.race.standings) {
-        const reorder::OrderingSpec& spec = result.orderings[standing.ordering].spec;
-        results::RaceRow& row = rows.emplace_back();
-        row.scene = result.info.scene;
-        row.structure = name(standing.structure);
-        row.ordering = spec.name;
-        row.tile = spec.tile;
-        row.bins = spec.bins;
-        row.parameters = spec.text;
-        row.queries = result.queries;
-        row.photons = result.info.photons;
-        row.k = result.config.k;
-        if (std::isfinite(result.config.radius)) row.radius = result.config.radius;
-        row.gathered = result.config.gathered;
-        row.threads = result.config.threads;
-        row.repeats = result.config.repeats;
-        row.order_seconds_median = standing.order.median;
-        row.search_seconds_median = standing.search.median;
-        row.search_seconds_min = standing.search.min;
-        row.search_seconds_max = standing.search.max;
-        row.search_seconds_mad = standing.search.mad;
-        row.net_gain_seconds = standing.net_gain;
-    }
-    return rows;
-}
-
-results::Table table_of(const Result& result, std::span<const results::RaceRow> rows) {
-    results::Table table = results::race_table(rows);
-    table.title =
-        fmt::format("{} | {} queries | {} photons | k {} | {} thread{} | medians of {} repeats",
-                    result.info.scene, result.queries, result.info.photons, result.config.k,
-                    result.config.threads, result.config.threads == 1 ? "" : "s", result.config.repeats);
-    return table;
-}
-
 void race(const Options& options, const Console& console) {
     if (!options.csv.empty()) results::refuse_to_overwrite(options.csv, options.force);
-    auto [orderings, reads] = experiment::parse_orderings(options.orders);
-    const auto is_naive = [](const reorder::ParsedOrdering& ordering) {
-        return ordering.spec.text == "naive";
-    };
-    if (std::none_of(orderings.begin(), orderings.end(), is_naive))
-        orderings.insert(orderings.begin(), reorder::parse_ordering("naive"));
-    const auto baseline = static_cast<std::size_t>(
-        std::find_if(orderings.begin(), orderings.end(), is_naive) - orderings.begin());
-
-    experiment::RaceConfig config;
-    config.structures = parse_structures(options.structures);
-    config.repeats = options.repeats;
-    config.threads = options.threads;
-    config.gathered = options.gathered;
-
+    experiment::TraceRace asked{.orderings = experiment::parse_orderings(options.orders),
+                                .structures = parse_structures(options.structures),
+                                .k = options.k,
+                                .queries = options.queries,
+                                .repeats = options.repeats,
+                                .threads = options.threads,
+                                .gathered = options.gathered};
     trace::TraceReader trace(options.trace);
-    const trace::TraceInfo& info = trace.info();
-    config.k = options.k == 0 ? info.k : options.k;
-    config.radius = replay::search_radius(info).value_or(std::numeric_limits<float>::infinity());
-    const std::span<const trace::Photon> heap = trace.column<trace::Photon>("photon");
-    const spatial::PhotonKd tree(heap);
-    if (const std::uint32_t node = spatial::first_disorder(tree); node != tree.size())
-        throw trace::DataError(fmt::format("{}: row {} breaks the order of a left-balanced kd-tree",
-                                           (trace.folder() / "photon.npy").string(), node));
-    const reorder::Workload work = raced(trace, reads, options.queries);
-
-    Result result{info, orderings, config, work.position.size(), {}};
-    {
-        Progress progress(console);
-        result.race = experiment::race(heap, work, orderings, baseline, config,
-                                       [&](std::uint64_t done, std::uint64_t total) {
-                                           progress.update("racing", "queries", done, total);
-                                       });
-    }
-    if (config.k == info.k && result.queries == info.queries &&
-        result.race.found_photons != info.found_photons)
-        throw trace::DataError(fmt::format(
-            "{}: found_photons: found {}, expected {}, which the searches find",
-            (trace.folder() / "trace.json").string(), info.found_photons, result.race.found_photons));
-    const std::vector<results::RaceRow> rows = rows_of(result);
+    const std::vector<results::RaceRow> rows =
+        experiment::race(trace, std::move(asked), Progress(console).listener());
     if (!options.csv.empty()) {
         results::write_csv<results::RaceRow>(options.csv, rows);
-        results::write_provenance(options.csv, provenance(console, trace.checksum()), info.parameters);
+        results::write_provenance(options.csv, provenance(console, trace.checksum()),
+                                  trace.info().parameters);
     }
-    console.print("{}", results::text_of(table_of(result, rows)));
+    console.print("{}", results::text_of(results::race_table(rows)));
     if (!options.csv.empty()) console.print("rows: {}\n", options.csv.string());
 }
 

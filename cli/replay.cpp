@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <set>
 
 #include "cachesim/cache_list.h"
 #include "cli/command.h"
@@ -11,8 +10,7 @@
 #include "cli/progress.h"
 #include "cli/version.h"
 #include "experiment/address_sweep.h"
-#include "experiment/measurement.h"
-#include "results/benefit.h"
+#include "experiment/replays.h"
 #include "results/csv.h"
 #include "results/provenance.h"
 #include "results/traffic_table.h"
@@ -22,31 +20,6 @@
 namespace regather::cli {
 namespace {
 
-/// The rows of machines for each ordering, with its name.
-std::vector<results::MachineRow> through_machines(const experiment::Measurement& measurement,
-                                                  const trace::TraceReader& trace,
-                                                  std::span<const reorder::ParsedOrdering> orderings,
-                                                  std::span<const cachesim::Machine> machines,
-                                                  const Console& console) {
-    std::vector<results::MachineRow> rows;
-    Progress progress(console);
-    for (const reorder::ParsedOrdering& parsed : orderings) {
-        std::vector<cachesim::Hierarchy> systems;
-        for (const cachesim::Machine& machine : machines) systems.push_back(machine.hierarchy());
-        measurement.through(measurement.order(*parsed.ordering), systems, [&](std::uint64_t done) {
-            progress.update("replaying " + parsed.spec.text, "queries", done, measurement.queries());
-        });
-        for (std::size_t m = 0; m < machines.size(); ++m)
-            for (results::MachineRow& row : experiment::machine_rows(machines[m], systems[m])) {
-                row.scene = trace.info().scene;
-                row.ordering = parsed.spec.name;
-                row.parameters = parsed.spec.text;
-                rows.push_back(std::move(row));
-            }
-    }
-    return rows;
-}
-
 struct Options {
     std::filesystem::path trace, csv;
     std::vector<std::string> orders, caches{"128K:128:8"};
@@ -55,30 +28,6 @@ struct Options {
     std::uint32_t one_of = 1;
     std::uint64_t seed = 1;
 };
-
-/// Every ordering through every cache.
-std::vector<results::Row> through_caches(experiment::Measurement& measurement,
-                                         std::span<const reorder::ParsedOrdering> orderings,
-                                         std::span<const cachesim::CacheConfig> caches,
-                                         const experiment::Method& method, const Console& console) {
-    Progress progress(console);
-    const experiment::ProgressListener listener = progress.listener();
-    std::set<std::uint32_t> lines;
-    for (const cachesim::CacheConfig& cache : caches) lines.insert(cache.line_bytes);
-    measurement.find_compulsory(std::vector<std::uint32_t>(lines.begin(), lines.end()));
-    measurement.prepare(
-        caches, method,
-        experiment::listening(listener, "counting what no order changes", "queries", measurement.queries()));
-    std::vector<results::Row> rows;
-    for (const reorder::ParsedOrdering& parsed : orderings)
-        for (results::Row& row :
-             measurement.rows(parsed, measurement.order(*parsed.ordering), caches,
-                              experiment::listening(listener, "replaying " + parsed.spec.text, "queries",
-                                                    measurement.queries())))
-            rows.push_back(std::move(row));
-    results::fill_net_benefit(rows);
-    return rows;
-}
 
 void run(const Options& options, const Console& console) {
     if (!options.csv.empty()) results::refuse_to_overwrite(options.csv, options.force);
@@ -94,16 +43,19 @@ void run(const Options& options, const Console& console) {
     trace::TraceReader trace(options.trace);
     experiment::Measurement measurement(trace, reads, trace::parse_size(options.onchip));
     std::string csv, table;
+    Progress progress(console);
     if (machines.empty()) {
-        const std::vector<results::Row> rows =
-            through_caches(measurement, orderings, caches, method, console);
+        const auto rows =
+            experiment::through_caches(measurement, orderings, caches, method, progress.listener());
         csv = results::to_csv(rows);
         table = results::traffic_text(rows);
     } else {
-        const auto rows = through_machines(measurement, trace, orderings, machines, console);
+        const auto rows = experiment::through_machines(measurement, orderings, machines, trace.info().scene,
+                                                       progress.listener());
         csv = results::to_csv<results::MachineRow>(rows);
         table = results::text_of(results::table_of<results::MachineRow>(rows));
     }
+    progress.clear();
     if (options.csv.empty()) return console.print("{}", csv);
     results::write_csv(options.csv, csv);
     results::write_provenance(options.csv, provenance(console, trace.checksum()), trace.info().parameters);

@@ -15,10 +15,10 @@
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "results/table.h"
-#include "scenes/camera_path.h"
 #include "scenes/catalogue.h"
 #include "scenes/loader.h"
 #include "scenes/needs.h"
+#include "scenes/summary.h"
 #include "trace/error.h"
 #include "trace/file.h"
 
@@ -29,27 +29,8 @@ namespace {
 using scenes::Scene;
 using trace::Vec3;
 
-constexpr std::array<std::string_view, 4> kind_names{"diffuse", "glossy", "mirror", "dielectric"};
-
 std::string in_words(Vec3 v) {
     return fmt::format("{:.4g} {:.4g} {:.4g}", v.x, v.y, v.z);
-}
-
-std::string materials_of(const Scene& scene) {
-    std::array<std::size_t, kind_names.size()> counts{};
-    for (const scenes::Material& material : scene.materials)
-        ++counts[static_cast<std::size_t>(material.kind)];
-    std::string text;
-    for (std::size_t kind = 0; kind < counts.size(); ++kind)
-        if (counts[kind] > 0)
-            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[kind], kind_names[kind]);
-    return text;
-}
-
-Vec3 total_power(const Scene& scene) {
-    Vec3 power;
-    for (const scenes::AreaLight& light : scene.lights) power += light.power();
-    return power;
 }
 
 std::string bounds_of(const Scene& scene) {
@@ -65,19 +46,6 @@ std::string frames_of(const Scene& scene) {
     return scene.camera_path.empty() ? "-" : fmt::format("{}", scene.frames);
 }
 
-double seen_by_camera(const Scene& scene) {
-    const capture::RayCaster caster(scene);
-    return capture::share_seen(scene, caster, {&scene.camera, 1});
-}
-
-double seen_over_path(const Scene& scene) {
-    std::vector<scenes::Camera> cameras;
-    for (std::uint32_t frame = 0; frame < scene.frames; ++frame)
-        cameras.push_back(scenes::camera_at(scene, frame));
-    const capture::RayCaster caster(scene);
-    return capture::share_seen(scene, caster, cameras);
-}
-
 void print_all(const Console& console) {
     using results::Align;
     results::Table all({{"name", Align::left},
@@ -90,9 +58,9 @@ void print_all(const Console& console) {
                         {"frames"}});
     for (const scenes::EmbeddedScene& entry : scenes::catalogue()) {
         const Scene scene = scenes::load_scene(entry.name);
-        all.add({scene.name, fmt::format("{}", scene.triangles.size()), materials_of(scene),
-                 fmt::format("{}", scene.lights.size()), in_words(total_power(scene)), bounds_of(scene),
-                 in_percent(seen_by_camera(scene)), frames_of(scene)});
+        all.add({scene.name, fmt::format("{}", scene.triangles.size()), scenes::kinds_of(scene.materials),
+                 fmt::format("{}", scene.lights.size()), in_words(scenes::total_power(scene)),
+                 bounds_of(scene), in_percent(capture::share_seen(scene)), frames_of(scene)});
     }
     console.print("{}", results::text_of(all));
 }
@@ -130,18 +98,19 @@ void print_details(const std::string& name_or_path, const Console& console) {
     line("triangles", fmt::format("{}", scene.triangles.size()));
     line("vertices", fmt::format("{}", scene.vertices.size()));
     line("faces without area", fmt::format("{} dropped", scene.degenerate_faces_dropped));
-    line("materials", materials_of(scene));
+    line("materials", scenes::kinds_of(scene.materials));
     line("lights", fmt::format("{}", scene.lights.size()));
-    line("power [W] (R G B)", in_words(total_power(scene)));
+    line("power [W] (R G B)", in_words(scenes::total_power(scene)));
     line("bounds [m]", bounds_of(scene));
     const scenes::Camera& camera = scene.camera;
     line("camera [m]",
          fmt::format("{} towards {}, up {}, {:.4g} degrees high", in_words(camera.position),
                      in_words(camera.target), in_words(camera.up), camera.vertical_fov_degrees));
-    line("seen by the camera", in_percent(seen_by_camera(scene)) + " of the surface");
+    line("seen by the camera", in_percent(capture::share_seen(scene)) + " of the surface");
     if (!scene.camera_path.empty())
-        line("camera path", fmt::format("{} frames, {} key frames, {} of the surface seen", scene.frames,
-                                        scene.camera_path.size(), in_percent(seen_over_path(scene))));
+        line("camera path",
+             fmt::format("{} frames, {} key frames, {} of the surface seen", scene.frames,
+                         scene.camera_path.size(), in_percent(capture::share_seen_over_path(scene))));
     if (const auto& [x, y, z] = scene.recentred_by; x != 0 || y != 0 || z != 0)
         line("recentred", fmt::format("all coordinates of the file less {:.15g} {:.15g} {:.15g} m", x, y, z));
     console.print("\nneeds of a capture\n");

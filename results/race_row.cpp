@@ -41,6 +41,14 @@ Table race_table(std::span<const RaceRow> rows) {
                {"search us"},
                {"+- mad"},
                {"net gain s"}});
+    if (!rows.empty()) {
+        const RaceRow& first = rows.front();
+        const std::uint64_t threads = first.threads.value_or(0);
+        out.title =
+            fmt::format("{} | {} queries | {} photons | k {} | {} thread{} | medians of {} repeats",
+                        first.scene, first.queries.value_or(0), first.photons.value_or(0),
+                        first.k.value_or(0), threads, threads == 1 ? "" : "s", first.repeats.value_or(0));
+    }
     for (const RaceRow& row : rows) {
         const auto per_query = [&](const Number& seconds) {
             return seconds && row.queries.value_or(0) > 0

@@ -26,7 +26,7 @@ struct RaceRow {
     Number net_gain_seconds;    ///< Median over the repeats of naive's search less search and order.
 };
 
-/// Microseconds a query; a line a row, in their order.
+/// Microseconds a query; a line a row, in their order. The title is of the first row: all are of one race.
 Table race_table(std::span<const RaceRow> rows);
 
 }  // namespace regather::results

@@ -1,0 +1,53 @@
+#include "experiment/replays.h"
+
+#include <set>
+
+#include "experiment/address_sweep.h"
+#include "results/benefit.h"
+
+namespace regather::experiment {
+
+std::vector<results::Row> through_caches(Measurement& measurement,
+                                         std::span<const reorder::ParsedOrdering> orderings,
+                                         std::span<const cachesim::CacheConfig> caches, const Method& method,
+                                         const ProgressListener& progress) {
+    std::set<std::uint32_t> lines;
+    for (const cachesim::CacheConfig& cache : caches) lines.insert(cache.line_bytes);
+    measurement.find_compulsory(std::vector<std::uint32_t>(lines.begin(), lines.end()));
+    measurement.prepare(
+        caches, method,
+        listening(progress, "counting what no order changes", "queries", measurement.queries()));
+    std::vector<results::Row> rows;
+    for (const reorder::ParsedOrdering& parsed : orderings)
+        for (results::Row& row : measurement.rows(
+                 parsed, measurement.order(*parsed.ordering), caches,
+                 listening(progress, "replaying " + parsed.spec.text, "queries", measurement.queries())))
+            rows.push_back(std::move(row));
+    results::fill_net_benefit(rows);
+    return rows;
+}
+
+std::vector<results::MachineRow> through_machines(const Measurement& measurement,
+                                                  std::span<const reorder::ParsedOrdering> orderings,
+                                                  std::span<const cachesim::Machine> machines,
+                                                  const std::string& scene,
+                                                  const ProgressListener& progress) {
+    std::vector<results::MachineRow> rows;
+    for (const reorder::ParsedOrdering& parsed : orderings) {
+        std::vector<cachesim::Hierarchy> systems;
+        for (const cachesim::Machine& machine : machines) systems.push_back(machine.hierarchy());
+        measurement.through(
+            measurement.order(*parsed.ordering), systems,
+            listening(progress, "replaying " + parsed.spec.text, "queries", measurement.queries()));
+        for (std::size_t m = 0; m < machines.size(); ++m)
+            for (results::MachineRow& row : machine_rows(machines[m], systems[m])) {
+                row.scene = scene;
+                row.ordering = parsed.spec.name;
+                row.parameters = parsed.spec.text;
+                rows.push_back(std::move(row));
+            }
+    }
+    return rows;
+}
+
+}  // namespace regather::experiment

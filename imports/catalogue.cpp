@@ -1,0 +1,80 @@
+#include "imports/catalogue.h"
+
+#include <fmt/format.h>
+
+#include "imports/furniture/demonstration.h"
+#include "imports/homes/sweethome3d.h"
+#include "imports/maps/openarena.h"
+#include "imports/mesh.h"
+#include "meshes/mesh.h"
+#include "scenes/summary.h"
+#include "trace/error.h"
+
+namespace regather::imports {
+namespace {
+
+const std::filesystem::path& one_file(const Request& request) {
+    if (request.files.size() != 1)
+        throw trace::UsageError(fmt::format("FILE: found {} files, expected one", request.files.size()));
+    return request.files.front();
+}
+
+ImportedScene import_home(const Request& request) {
+    return import_sweethome3d(one_file(request), request.home);
+}
+
+ImportedScene import_glassware(const Request& request) {
+    return import_furniture(request.files);
+}
+
+ImportedScene import_one_mesh(const Request& request) {
+    using Up = MeshImportOptions::Up;
+    const Up up = request.up == "x" ? Up::x : request.up == "y" ? Up::y : Up::z;
+    return import_mesh(one_file(request), {.up = up, .size = request.size});
+}
+
+ImportedScene import_map(const Request& request) {
+    return import_openarena(request.files, {.map = request.map});
+}
+
+}  // namespace
+
+std::span<const Importer> catalogue() {
+    static const std::vector<Importer> importers{
+        {"sweethome3d",
+         "a home of Sweet Home 3D: .sh3d file, or sweethome3d.jar with --home NAME",
+         {"home"},
+         import_home},
+        {"furniture",
+         "glassware and chess on a table, from the catalogues of sweethome3d-furniture (folder or .sh3f "
+         "files)",
+         {},
+         import_glassware},
+        {"mesh",
+         "an OBJ, PLY or glTF file, on a floor under a light; --up x|y|z, --size METRES",
+         {"up", "size"},
+         import_one_mesh},
+        {"openarena",
+         "a map of OpenArena or Quake III Arena: its .pk3 archives, with --map NAME",
+         {"map"},
+         import_map},
+    };
+    return importers;
+}
+
+std::string_view kind_of_file(const std::filesystem::path& file) {
+    if (meshes::format_of(file)) return "mesh";
+    const std::string extension = file.extension().string();
+    if (extension == ".sh3d" || extension == ".jar") return "sweethome3d";
+    if (extension == ".sh3f") return "furniture";
+    return extension == ".pk3" ? "openarena" : "";
+}
+
+std::string summary_of(const ImportedScene& scene) {
+    return fmt::format(
+        "{}: {} triangles; {} materials ({}); {} lights; {} frames\norigin   {}\nlicence  {}\n", scene.name,
+        scene.triangle_count(), scene.materials.size(), scenes::kinds_of(scene.materials),
+        scene.lights.size(), scene.frames, scene.origin, scene.licence);
+}
+
+}  // namespace regather::imports
