@@ -9,7 +9,7 @@
 
 #include "bench/room.h"
 #include "cachesim/cache.h"
-#include "cachesim/lru_family.h"
+#include "cachesim/lru/lru_family.h"
 #include "replay/walk_lines.h"
 #include "replay/walk_store.h"
 #include "spatial/walk.h"

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cassert>
 
-#include "cachesim/engine.h"
+#include "cachesim/lru/engine.h"
 #include "trace/error.h"
 
 namespace regather::cachesim {

@@ -57,7 +57,7 @@ public:
     /// (misses + writebacks) x line_bytes.
     std::uint64_t traffic_bytes() const;
 
-    class Engine;  ///< How the sets are kept; chosen by geometry. cachesim/engine.h
+    class Engine;  ///< How the sets are kept; chosen by geometry. cachesim/lru/engine.h
 private:
     CacheConfig config_;
     std::array<CacheStats, trace::region_count> stats_{};

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "cachesim/cache_list.h"
-#include "cachesim/family_sweep.h"
+#include "cachesim/lru/family_sweep.h"
 #include "cachesim/policies/policy_sweep.h"
 #include "trace/error.h"
 

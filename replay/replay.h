@@ -1,8 +1,8 @@
 // replay/replay.h -- runs recorded walks in an order: walks -> nodes -> bytes -> lines -> caches. Nothing is
 // searched.
 //
-// All LRU caches of one line size come from one pass (cachesim/lru_family.h), and of a walk's touches only
-// the first of each line are simulated for an order: how deep the others lie does not depend on what ran
+// All LRU caches of one line size come from one pass (cachesim/lru/lru_family.h), and of a walk's touches
+// only the first of each line are simulated for an order: how deep the others lie does not depend on what ran
 // before the walk, so they are counted once for all orders (count_revisits()).
 #pragma once
 #include <cstdint>
@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "cachesim/cache.h"
-#include "cachesim/lru_family.h"
+#include "cachesim/lru/lru_family.h"
 #include "replay/layout.h"
 #include "replay/walk_store.h"
 

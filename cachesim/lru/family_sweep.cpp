@@ -1,4 +1,4 @@
-#include "cachesim/family_sweep.h"
+#include "cachesim/lru/family_sweep.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for_each.h>

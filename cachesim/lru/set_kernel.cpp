@@ -1,9 +1,9 @@
-#include "cachesim/set_kernel.h"
+#include "cachesim/lru/set_kernel.h"
 
 #include <bit>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "cachesim/set_kernel.cpp"
+#define HWY_TARGET_INCLUDE "cachesim/lru/set_kernel.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

@@ -1,4 +1,4 @@
-// cachesim/stamp_bits.h -- which time stamps are some line's last one, as a bitmap that counts fast: the
+// cachesim/lru/stamp_bits.h -- which time stamps are some line's last one, as a bitmap that counts fast: the
 // number of set bits above a stamp is the LRU stack distance of the line that bears it (Bennett & Kruskal
 // 1975, with counts of three sizes in place of their tree). Memory: 1.2 bits a stamp.
 #pragma once

@@ -2,8 +2,8 @@
 // same time whatever the ways.
 #include <vector>
 
-#include "cachesim/engine.h"
 #include "cachesim/line_chains.h"
+#include "cachesim/lru/engine.h"
 #include "cachesim/recency_list.h"
 
 namespace regather::cachesim {

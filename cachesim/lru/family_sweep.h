@@ -1,4 +1,4 @@
-// cachesim/family_sweep.h -- one stream of byte accesses through every LRU cache of some line sizes: 1 to
+// cachesim/lru/family_sweep.h -- one stream of byte accesses through every LRU cache of some line sizes: 1 to
 // 2^16 sets (powers of two) of 1 to 16 ways, and fully associative ones of each power of two of lines that
 // the stream can fill.
 #pragma once
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cachesim/lines.h"
-#include "cachesim/lru_family.h"
+#include "cachesim/lru/lru_family.h"
 #include "cachesim/miss_class.h"
 
 namespace regather::cachesim {

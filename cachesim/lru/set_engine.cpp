@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "cachesim/set_kernel.h"
+#include "cachesim/lru/set_kernel.h"
 
 namespace regather::cachesim {
 

@@ -1,9 +1,9 @@
-#include "cachesim/recency_rows.h"
+#include "cachesim/lru/recency_rows.h"
 
 #include <algorithm>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "cachesim/recency_rows.cpp"
+#define HWY_TARGET_INCLUDE "cachesim/lru/recency_rows.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

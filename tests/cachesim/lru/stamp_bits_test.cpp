@@ -1,5 +1,5 @@
 // The bitmap of stamps against a sorted set, above all where its three sizes of count begin and end.
-#include "cachesim/stamp_bits.h"
+#include "cachesim/lru/stamp_bits.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

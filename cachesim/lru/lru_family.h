@@ -1,7 +1,7 @@
-// cachesim/lru_family.h -- every LRU cache of one line size in one pass: set-associative ones for each number
-// of sets and all ways up to a limit, fully associative ones of every size, and the classes of their misses.
-// Exact. Mattson et al. 1970 (stack algorithms); Hill & Smith, IEEE ToC 1989 (all associativities); Hill 1987
-// (classes).
+// cachesim/lru/lru_family.h -- every LRU cache of one line size in one pass: set-associative ones for each
+// number of sets and all ways up to a limit, fully associative ones of every size, and the classes of their
+// misses. Exact. Mattson et al. 1970 (stack algorithms); Hill & Smith, IEEE ToC 1989 (all associativities);
+// Hill 1987 (classes).
 #pragma once
 #include <cstdint>
 #include <limits>

@@ -1,5 +1,5 @@
 // The stamps of lines against a map: in the table of low lines, above it, and at the border.
-#include "cachesim/line_stamps.h"
+#include "cachesim/lru/line_stamps.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

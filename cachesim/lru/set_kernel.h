@@ -1,13 +1,13 @@
-// cachesim/set_kernel.h -- LRU sets as rows of tags, most recently used first: an access compares a whole row
-// with one tag and moves the tag that it found (or the last one, replaced) to the front, without a branch.
-// Compiled for several instruction sets and chosen at run time (Highway); all count the same.
+// cachesim/lru/set_kernel.h -- LRU sets as rows of tags, most recently used first: an access compares a whole
+// row with one tag and moves the tag that it found (or the last one, replaced) to the front, without a
+// branch. Compiled for several instruction sets and chosen at run time (Highway); all count the same.
 //
 // A tag is line >> set_bits in the low bits and the line's state (engine.h) in the top state_bits. Rows have
 // 4, 8, 16 or 32 tags; those past the ways, and ways that hold nothing, are `empty`.
 #pragma once
 #include <cstdint>
 
-#include "cachesim/engine.h"
+#include "cachesim/lru/engine.h"
 
 namespace regather::cachesim {
 

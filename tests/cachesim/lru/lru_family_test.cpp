@@ -1,4 +1,4 @@
-#include "cachesim/lru_family.h"
+#include "cachesim/lru/lru_family.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // One pass over a family of caches against a simulation of each of them.
-#include "cachesim/family_sweep.h"
+#include "cachesim/lru/family_sweep.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// cachesim/engine.h -- how the sets of an LruCache are kept. Two ways, with the same counts to the last miss:
-// rows of tags in order of use for up to 32 ways (set_engine.cpp), hash table and lists for all else
+// cachesim/lru/engine.h -- how the sets of an LruCache are kept. Two ways, with the same counts to the last
+// miss: rows of tags in order of use for up to 32 ways (set_engine.cpp), hash table and lists for all else
 // (list_engine.cpp).
 #pragma once
 #include <array>

@@ -1,4 +1,4 @@
-#include "cachesim/line_stamps.h"
+#include "cachesim/lru/line_stamps.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "cachesim/stamp_bits.h"
+#include "cachesim/lru/stamp_bits.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,6 +1,6 @@
 // Sets as rows of stamps: drawn by hand after each touch, and by definition on every instruction set that the
 // kernel is compiled for and this machine has.
-#include "cachesim/recency_rows.h"
+#include "cachesim/lru/recency_rows.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "cachesim/lru_family.h"
+#include "cachesim/lru/lru_family.h"
 
 #include <fmt/format.h>
 #include <hwy/aligned_allocator.h>
@@ -9,9 +9,9 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "cachesim/line_stamps.h"
-#include "cachesim/recency_rows.h"
-#include "cachesim/stamp_bits.h"
+#include "cachesim/lru/line_stamps.h"
+#include "cachesim/lru/recency_rows.h"
+#include "cachesim/lru/stamp_bits.h"
 #include "trace/error.h"
 
 namespace regather::cachesim {

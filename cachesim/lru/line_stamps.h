@@ -1,4 +1,4 @@
-// cachesim/line_stamps.h -- the time stamps of each line's last touch: an array for low line numbers, a
+// cachesim/lru/line_stamps.h -- the time stamps of each line's last touch: an array for low line numbers, a
 // hash table above.
 #pragma once
 #include <algorithm>

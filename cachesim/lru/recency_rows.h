@@ -1,7 +1,7 @@
-// cachesim/recency_rows.h -- the sets of LRU caches as rows of time stamps, newest first. A line is known by
-// the stamp of its last touch, so a row holds no tags: the depth of a line in its set is the number of stamps
-// in the row above its own, and a row of 16 stamps answers for 1 to 16 ways at once (Mattson et al. 1970: LRU
-// is a stack algorithm).
+// cachesim/lru/recency_rows.h -- the sets of LRU caches as rows of time stamps, newest first. A line is known
+// by the stamp of its last touch, so a row holds no tags: the depth of a line in its set is the number of
+// stamps in the row above its own, and a row of 16 stamps answers for 1 to 16 ways at once (Mattson et al.
+// 1970: LRU is a stack algorithm).
 //
 // Stamps are unique, from first_stamp up; never_touched and empty_place are below all of them. Compiled for
 // several instruction sets and chosen at run time (Highway); all count the same.
