@@ -42,7 +42,8 @@ Affine operator*(const Affine& a, const Affine& b) {
     Affine c{product(a.linear, b.linear), a.offset};
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k)
-            c.offset[i] += a.linear[static_cast<std::size_t>(3 * i + k)] * b.offset[k];
+            c.offset[i] +=
+                a.linear[3 * static_cast<std::size_t>(i) + static_cast<std::size_t>(k)] * b.offset[k];
     return c;
 }
 

@@ -402,7 +402,7 @@ void Json::write(std::string& out, int indent, int depth) const {
     const auto next_line = [&](int level) {
         if (indent < 0) return;
         out += '\n';
-        out.append(static_cast<std::size_t>(indent * level), ' ');
+        out.append(static_cast<std::size_t>(indent) * static_cast<std::size_t>(level), ' ');
     };
     if (is_null()) {
         out += "null";

@@ -100,7 +100,7 @@ Vec3 decode_normal(const Photon& photon) {
                     x = folded;
                 }
                 const double size = std::sqrt(x * x + y * y + z * z);
-                normals[static_cast<std::size_t>(v * 128 + u)] = {
+                normals[static_cast<std::size_t>(v) * 128 + static_cast<std::size_t>(u)] = {
                     static_cast<float>(x / size), static_cast<float>(y / size), static_cast<float>(z / size)};
             }
         return normals;

@@ -89,7 +89,7 @@ public:
     }
 
     std::string name() const {
-        const std::string text = this->text("name");
+        std::string text = this->text("name");
         const bool good =
             !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), [](char c) {
                 return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
