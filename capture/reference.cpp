@@ -11,6 +11,7 @@
 #include "trace/error.h"
 #include "trace/field.h"
 #include "trace/file.h"
+#include "trace/median.h"
 #include "trace/npy.h"
 #include "trace/text.h"
 
@@ -129,10 +130,7 @@ double Reference::median_variance() const {
     for (const Moments& pixel : pixels)
         all.push_back((pixel.variance(0, samples) + pixel.variance(1, samples) + pixel.variance(2, samples)) /
                       3);
-    if (all.empty()) return 0;
-    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-    std::nth_element(all.begin(), middle, all.end());
-    return *middle;
+    return all.empty() ? 0 : trace::upper_median(std::move(all));
 }
 
 double Reference::mean_radiance() const {

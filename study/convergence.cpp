@@ -11,6 +11,7 @@
 #include "capture/images/flip.h"
 #include "capture/images/image_error.h"
 #include "study/interior.h"
+#include "trace/median.h"
 
 namespace regather::study {
 namespace {
@@ -78,10 +79,7 @@ capture::CaptureConfig capture_config(const Setting& setting, const ConvergenceC
 std::vector<std::uint8_t> counted_pixels(const capture::Image& image) {
     std::vector<float> brightness;
     for (const trace::Vec3 pixel : image.pixels) brightness.push_back(pixel.x + pixel.y + pixel.z);
-    std::vector<float> sorted = brightness;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    const float most = 10 * *middle;
+    const float most = 10 * static_cast<float>(trace::upper_median({brightness.begin(), brightness.end()}));
     std::vector<std::uint8_t> mask(brightness.size(), 1);
     if (most <= 0) return mask;  // half the image is black
     const auto w = static_cast<std::int64_t>(image.width), h = static_cast<std::int64_t>(image.height);
