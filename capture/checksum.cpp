@@ -1,47 +1,29 @@
-#include <fmt/format.h>
-#include <xxhash.h>
-
+#include <span>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "capture/capture.h"
+#include "trace/digest.h"
 
 namespace regather::capture {
 namespace {
 
-class Digest {
-public:
-    Digest() : state_(XXH3_createState()) { XXH3_64bits_reset(state_); }
-    Digest(const Digest&) = delete;
-    Digest& operator=(const Digest&) = delete;
-    ~Digest() { XXH3_freeState(state_); }
-    template <class T>
-    void add(const T& value) {
-        static_assert(std::has_unique_object_representations_v<T> || std::is_same_v<T, float> ||
-                      std::is_same_v<T, Vec3>);
-        XXH3_64bits_update(state_, &value, sizeof value);
-    }
-    template <class T>
-    void add(const std::vector<T>& values) {
-        add(values.size());
-        XXH3_64bits_update(state_, values.data(), values.size() * sizeof(T));
-    }
-    std::string text() const { return fmt::format("{:016x}", XXH3_64bits_digest(state_)); }
-
-private:
-    XXH3_state_t* state_;
-};
+/// Their number and themselves.
+template <class T>
+void add(trace::Digest& digest, const std::vector<T>& values) {
+    digest.add(values.size());
+    digest.add_all(std::span(values));
+}
 
 }  // namespace
 
 std::string checksum(const Scene& scene) {
-    Digest digest;
-    digest.add(scene.vertices);
-    digest.add(scene.normals);
-    digest.add(scene.triangles);
-    digest.add(scene.triangle_material);
-    digest.add(scene.triangle_light);
+    trace::Digest digest;
+    add(digest, scene.vertices);
+    add(digest, scene.normals);
+    add(digest, scene.triangles);
+    add(digest, scene.triangle_material);
+    add(digest, scene.triangle_light);
     for (const Material& material : scene.materials) {
         digest.add(material.kind);
         digest.add(material.diffuse);
@@ -54,7 +36,7 @@ std::string checksum(const Scene& scene) {
             digest.add(v);  // a mesh is in the triangles
     for (const Vec3 v : {scene.camera.position, scene.camera.target, scene.camera.up}) digest.add(v);
     digest.add(scene.camera.vertical_fov_degrees);
-    return digest.text();
+    return digest.hexadecimal();
 }
 
 }  // namespace regather::capture

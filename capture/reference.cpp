@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "trace/digest.h"
 #include "trace/error.h"
 #include "trace/field.h"
 #include "trace/file.h"
@@ -29,10 +30,6 @@ const char* const state_name = "reference.json";
 const trace::ColumnType& moments_type() {
     static const trace::ColumnType type{"'<f8'", "6", sizeof(Moments), "float64 x 6"};
     return type;
-}
-
-std::string hexadecimal(std::uint64_t number) {
-    return fmt::format("{:016x}", number);
 }
 
 std::string moments_name(std::uint32_t samples) {
@@ -167,7 +164,7 @@ Reference load_reference(const fs::path& folder) {
     if (column.size() != pixels)
         throw trace::DataError(fmt::format("{}: found {} rows, expected {} x {} pixels",
                                            (folder / name).string(), column.size(), key.width, key.height));
-    const std::string checksum = hexadecimal(column.checksum());
+    const std::string checksum = trace::hexadecimal(column.checksum());
     if (const std::string& expected = root["moments_checksum"].text(); checksum != expected)
         throw trace::DataError(fmt::format("{}: found checksum {}, expected {}: altered or damaged",
                                            (folder / name).string(), checksum, trace::shown(expected)));
@@ -242,7 +239,7 @@ void save(const Reference& reference, const fs::path& folder) {
                                      {"cut_off_paths", reference.counts.cut_off},
                                      {"nonfinite_paths", reference.counts.nonfinite.total()},
                                      {"moments", name},
-                                     {"moments_checksum", hexadecimal(digest.checksum)}});
+                                     {"moments_checksum", trace::hexadecimal(digest.checksum)}});
     trace::write_whole(folder / state_name, state.dump(2) + "\n");
     remove_moments_but(folder, name);
 }

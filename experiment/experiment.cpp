@@ -1,7 +1,6 @@
 #include "experiment/experiment.h"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <map>
 #include <set>
@@ -13,6 +12,7 @@
 #include "reorder/shared_library.h"
 #include "scenes/loader.h"
 #include "scenes/needs.h"
+#include "trace/digest.h"
 #include "trace/field.h"
 #include "trace/file.h"
 #include "trace/size.h"
@@ -87,8 +87,7 @@ std::vector<std::string> specs(const Field& entry, const std::string& name) {
 std::string library_digest(const reorder::Ordering& ordering) {
     const auto* library = dynamic_cast<const reorder::SharedLibrary*>(&ordering);
     if (!library) return {};
-    const std::string bytes = trace::read_file(library->path());
-    return fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
+    return trace::digest_of(trace::read_file(library->path()));
 }
 
 /// An ordering through a cache is a row: each may be asked for once.

@@ -1,8 +1,8 @@
 #include "experiment/kept.h"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
+#include "trace/digest.h"
 #include "trace/file.h"
 
 namespace regather::experiment {
@@ -10,14 +10,10 @@ namespace {
 
 /// All that stands before the bytes.
 std::string header(std::string_view key, std::string_view bytes) {
-    return fmt::format("regather part 1\nfor {}\nxxh3 {}\n", key, digest_of(bytes));
+    return fmt::format("regather part 1\nfor {}\nxxh3 {}\n", key, trace::digest_of(bytes));
 }
 
 }  // namespace
-
-std::string digest_of(std::string_view key) {
-    return fmt::format("{:016x}", XXH3_64bits(key.data(), key.size()));
-}
 
 std::optional<std::string> read_kept(const std::filesystem::path& path, std::string_view key) {
     if (!std::filesystem::is_regular_file(path)) return std::nullopt;

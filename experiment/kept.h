@@ -8,9 +8,6 @@
 
 namespace regather::experiment {
 
-/// A name for what `key` describes: XXH3-64, in hexadecimal.
-std::string digest_of(std::string_view key);
-
 /// The bytes kept for this key; nothing when the file is missing, of another key, or damaged. Then it is to
 /// be made (again). A key is one line.
 std::optional<std::string> read_kept(const std::filesystem::path& path, std::string_view key);

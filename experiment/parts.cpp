@@ -16,6 +16,7 @@
 #include "experiment/measurement.h"
 #include "experiment/revisits.h"
 #include "results/csv.h"
+#include "trace/digest.h"
 #include "trace/error.h"
 
 namespace regather::experiment {
@@ -34,7 +35,7 @@ struct Part {
 Part part(const PartStore& store, const char* kind, const trace::TraceReader& trace,
           const std::string& what) {
     std::string key = fmt::format("{} {} {} {}", kind, store.revision, trace.checksum(), what);
-    fs::path path = store.folder / fmt::format("{}-{}.part", kind, digest_of(key));
+    fs::path path = store.folder / fmt::format("{}-{}.part", kind, trace::digest_of(key));
     return {std::move(key), std::move(path)};
 }
 

@@ -1,8 +1,5 @@
 #include "study/convergence.h"
 
-#include <fmt/format.h>
-#include <xxhash.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -11,6 +8,7 @@
 #include "capture/images/flip.h"
 #include "capture/images/image_error.h"
 #include "study/interior.h"
+#include "trace/digest.h"
 #include "trace/median.h"
 
 namespace regather::study {
@@ -98,10 +96,11 @@ Truth truth_of(const capture::Reference& reference) {
 }
 
 std::string checksum(const Truth& truth) {
-    const auto hash = [](const auto& values, std::uint64_t seed) {
-        return XXH3_64bits_withSeed(values.data(), values.size() * sizeof values[0], seed);
-    };
-    return fmt::format("{:016x}", hash(truth.variance, hash(truth.mean.pixels, truth.mean.width)));
+    trace::Digest mean(truth.mean.width);
+    mean.add_all(std::span(truth.mean.pixels));
+    trace::Digest both(mean.value());
+    both.add_all(std::span(truth.variance));
+    return both.hexadecimal();
 }
 
 Convergence::Convergence(const scenes::Scene& scene, Truth truth, const ConvergenceConfig& config)

@@ -1,13 +1,13 @@
 #include "trace/folder.h"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <charconv>
 #include <limits>
 #include <set>
 
+#include "trace/digest.h"
 #include "trace/field.h"
 #include "trace/file.h"
 #include "trace/text.h"
@@ -53,10 +53,6 @@ constexpr ColumnEntry table[] = {
     REGATHER_RAY_COLUMNS("gather", "final gather rays"),
 #undef REGATHER_RAY_COLUMNS
 };
-
-std::string hexadecimal(std::uint64_t value) {
-    return fmt::format("{:016x}", value);
-}
 
 constexpr std::uint64_t most_json_bytes = 16 << 20;  // a trace.json has some thousand
 
@@ -293,7 +289,7 @@ std::string TraceReader::checksum() const {
     std::string text;
     for (const auto& [name, digest] : digests_)
         text += fmt::format("{} {} {}\n", name, digest.rows, hexadecimal(digest.checksum));
-    return hexadecimal(XXH3_64bits(text.data(), text.size()));
+    return digest_of(text);
 }
 
 void TraceReader::expect_random_access(std::string_view name) {

@@ -5,7 +5,6 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <xxhash.h>
 
 #include <bit>
 #include <cerrno>
@@ -14,6 +13,7 @@
 #include <string_view>
 #include <utility>
 
+#include "trace/digest.h"
 #include "trace/text.h"
 
 namespace regather::trace {
@@ -111,7 +111,7 @@ struct ColumnWriter::State {
     std::filesystem::path path;
     ColumnType type;
     std::FILE* file = nullptr;
-    XXH3_state_t* hash = nullptr;
+    Digest hash;
     std::uint64_t bytes = 0;
 
     State(std::filesystem::path p, const ColumnType& t) : path(std::move(p)), type(t) {}
@@ -119,7 +119,6 @@ struct ColumnWriter::State {
     State& operator=(const State&) = delete;
     ~State() {
         if (file) std::fclose(file);
-        XXH3_freeState(hash);
     }
     void write(const void* data, std::size_t size) {
         if (std::fwrite(data, 1, size, file) != size)
@@ -135,8 +134,6 @@ ColumnWriter::ColumnWriter(std::filesystem::path path, const ColumnType& type)
         throw std::runtime_error(
             fmt::format("{}: cannot create: {}", state_->path.string(), std::strerror(errno)));
     std::setvbuf(state_->file, nullptr, _IOFBF, 1 << 20);
-    state_->hash = XXH3_createState();
-    XXH3_64bits_reset(state_->hash);
     const std::string block = header_block(type, 0);
     state_->write(block.data(), block.size());
 }
@@ -145,13 +142,13 @@ ColumnWriter::ColumnWriter(ColumnWriter&&) noexcept = default;
 
 void ColumnWriter::append_bytes(std::span<const std::byte> bytes) {
     state_->write(bytes.data(), bytes.size());
-    XXH3_64bits_update(state_->hash, bytes.data(), bytes.size());
+    state_->hash.add_bytes(bytes);
     state_->bytes += bytes.size();
 }
 
 ColumnDigest ColumnWriter::finish(OnDisk on_disk) {
     State& s = *state_;
-    const ColumnDigest digest{s.bytes / s.type.row_bytes, XXH3_64bits_digest(s.hash)};
+    const ColumnDigest digest{s.bytes / s.type.row_bytes, s.hash.value()};
     const std::string block = header_block(s.type, digest.rows);
     if (std::fseek(s.file, 0, SEEK_SET) != 0)
         throw std::runtime_error(fmt::format("{}: cannot write: {}", s.path.string(), std::strerror(errno)));
@@ -253,7 +250,9 @@ MappedColumn& MappedColumn::operator=(MappedColumn&& other) noexcept {
 }
 
 std::uint64_t MappedColumn::checksum() const {
-    return XXH3_64bits(data_, rows_ * row_bytes_);
+    Digest digest;
+    digest.add_bytes({static_cast<const std::byte*>(data_), rows_ * row_bytes_});
+    return digest.value();
 }
 
 void MappedColumn::expect_random_access() const {
