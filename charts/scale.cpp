@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trace/size.h"
+
 namespace regather::charts {
 
 double Scale::share(double value) const {
@@ -68,13 +70,12 @@ std::string plain_number(double value) {
 }
 
 std::string byte_number(double bytes) {
-    int step = 0;
-    constexpr const char* units[] = {"B", "kB", "MB", "GB", "TB", "PB", "EB"};
-    while (bytes >= 1000 * (1 - 1e-9) && step < 6) {
-        bytes /= 1000;
-        ++step;
-    }
-    return fmt::format("{:.4g} {}", bytes, units[step]);
+    const auto [number, steps] = trace::scaled_down(bytes, 1000, 1000 * (1 - 1e-9));
+    return fmt::format("{:.4g} {}B", number, trace::decimal_prefixes[steps]);
+}
+
+std::string kib_number(double bytes) {
+    return plain_number(bytes / 1024);
 }
 
 }  // namespace regather::charts

@@ -30,5 +30,6 @@ std::vector<double> log_ticks(double low, double high);
 
 std::string plain_number(double value);  ///< "0.002", "36"
 std::string byte_number(double bytes);   ///< "100 MB"
+std::string kib_number(double bytes);    ///< "0.5", "128": where the axis says KiB
 
 }  // namespace regather::charts

@@ -15,9 +15,6 @@ namespace {
 constexpr double single_height = 300, double_height = 190;
 constexpr std::size_t most_ticks = 14;
 
-std::string kib_number(double bytes) {
-    return fmt::format("{:.10g}", bytes / 1024);
-}
 std::string square(double n) {
     return fmt::format("{0:.10g}×{0:.10g}", n);
 }

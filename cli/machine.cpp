@@ -5,10 +5,12 @@
 #include <array>
 #include <memory>
 
+#include "cachesim/cache_list.h"
 #include "cachesim/machines/machine.h"
 #include "cli/command.h"
 #include "cli/commands.h"
 #include "results/table.h"
+#include "trace/size.h"
 
 namespace regather::cli {
 
@@ -17,15 +19,9 @@ namespace {
 using cachesim::LevelConfig;
 using cachesim::Machine;
 
-std::string bytes_in_words(std::uint64_t bytes) {
-    if (bytes >= 1 << 20 && bytes % (1 << 20) == 0) return fmt::format("{}M", bytes >> 20);
-    if (bytes >= 1 << 10 && bytes % (1 << 10) == 0) return fmt::format("{}K", bytes >> 10);
-    return fmt::format("{}", bytes);
-}
-
 std::string ways_in_words(const LevelConfig& level) {
     const std::uint32_t ways = level.cache.geometry.ways;
-    return ways == cachesim::fully_associative ? "full" : fmt::format("{}-way", ways);
+    return cachesim::ways_text(ways) + (ways == cachesim::fully_associative ? "" : "-way");
 }
 
 template <class Enum, std::size_t n>
@@ -41,7 +37,7 @@ void print_all(const Console& console) {
         std::string levels;
         for (const LevelConfig& level : machine.levels)
             levels += fmt::format("{}{} {} {}", levels.empty() ? "" : ", ", level.name,
-                                  bytes_in_words(level.cache.geometry.size_bytes), ways_in_words(level));
+                                  trace::size_text(level.cache.geometry.size_bytes), ways_in_words(level));
         all.add({std::string(row.name), levels, machine.summary});
     }
     console.print("{}", results::text_of(all));
@@ -66,9 +62,7 @@ void print_level(const Console& console, const LevelConfig& level,
     line("size_bytes", fmt::format("{}", level.cache.geometry.size_bytes));
     line("line_bytes", fmt::format("{}", level.line_bytes()));
     line("sector_bytes", fmt::format("{}", level.sector()));
-    line("ways", level.cache.geometry.ways == cachesim::fully_associative
-                     ? "full"
-                     : fmt::format("{}", level.cache.geometry.ways));
+    line("ways", cachesim::ways_text(level.cache.geometry.ways));
     line("policy", name_of(level.cache.policy));
     line("write", word(cachesim::write_policy_names, level.cache.write));
     line("write_miss", word(cachesim::write_miss_names, level.cache.write_miss));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "trace/error.h"
+#include "trace/size.h"
 
 namespace regather::results {
 namespace {
@@ -35,13 +36,8 @@ std::string three_digits(double value) {
 /// "B" is written whole; from 999.5 of a unit on, the next one is taken.
 std::string decimal(double value, const char* unit) {
     if (value < 999.5) return fmt::format("{:.4g} {}", value, unit);
-    int step = 0;
-    constexpr const char* prefixes[] = {"", "k", "M", "G", "T", "P", "E"};
-    while (value >= 999.5 && step < 6) {
-        value /= 1000;
-        ++step;
-    }
-    return fmt::format("{} {}{}", three_digits(value), prefixes[step], unit);
+    const auto [number, steps] = trace::scaled_down(value, 1000, 999.5);
+    return fmt::format("{} {}{}", three_digits(number), trace::decimal_prefixes[steps], unit);
 }
 
 }  // namespace
@@ -94,14 +90,8 @@ std::optional<Geometry> commonest_geometry(std::span<const Row> rows) {
 
 std::string binary_bytes(std::uint64_t bytes) {
     if (bytes < 1024) return fmt::format("{} B", bytes);
-    double value = static_cast<double>(bytes) / 1024;
-    int step = 0;
-    constexpr const char* units[] = {"KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
-    while (value >= 1024 && step < 5) {
-        value /= 1024;
-        ++step;
-    }
-    return fmt::format("{:.4g} {}", value, units[step]);
+    const auto [number, steps] = trace::scaled_down(static_cast<double>(bytes), 1024, 1024);
+    return fmt::format("{:.4g} {}iB", number, "KMGTPE"[steps - 1]);
 }
 
 std::string decimal_bytes(std::uint64_t bytes) {

@@ -27,4 +27,16 @@ std::uint64_t parse_size(std::string_view text) {
     return value << shift;
 }
 
+std::string size_text(std::uint64_t bytes) {
+    if (bytes >= 1 << 20 && bytes % (1 << 20) == 0) return fmt::format("{}M", bytes >> 20);
+    if (bytes >= 1 << 10 && bytes % (1 << 10) == 0) return fmt::format("{}K", bytes >> 10);
+    return fmt::format("{}", bytes);
+}
+
+Scaled scaled_down(double value, double base, double from) {
+    unsigned steps = 0;
+    for (; value >= from && steps < 6; ++steps) value /= base;
+    return {value, steps};
+}
+
 }  // namespace regather::trace

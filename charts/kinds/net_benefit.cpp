@@ -50,7 +50,7 @@ Scale budget_scale(double low, double high) {
     double tick = 1024;
     while (tick < out.low) tick *= 2;
     const double factor = out.high / tick > 600 ? 4 : 2;
-    for (; tick <= out.high; tick *= factor) out.ticks.emplace_back(tick, plain_number(tick / 1024));
+    for (; tick <= out.high; tick *= factor) out.ticks.emplace_back(tick, kib_number(tick));
     return out;
 }
 

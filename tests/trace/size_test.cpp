@@ -34,5 +34,25 @@ TEST(ParseSize, ShowsWhatItRefusesOnOneLine) {
     }
 }
 
+TEST(SizeText, IsTheShortestThatReadsAsTheSame) {
+    for (const auto& [bytes, text] : {std::pair{std::uint64_t{0}, "0"},
+                                      {1023, "1023"},
+                                      {1024, "1K"},
+                                      {1025, "1025"},
+                                      {98304, "96K"},
+                                      {3 << 20, "3M"},
+                                      {std::uint64_t{5} << 30, "5120M"}}) {
+        EXPECT_EQ(size_text(bytes), text);
+        EXPECT_EQ(parse_size(text), bytes);
+    }
+}
+
+TEST(ScaledDown, FromTheBorderOnAndSixTimesAtMost) {
+    EXPECT_EQ(scaled_down(999.5, 1000, 999.5).steps, 1u);
+    EXPECT_EQ(scaled_down(999.4, 1000, 999.5).steps, 0u);
+    EXPECT_EQ(scaled_down(3 * 1024 * 1024, 1024, 1024).value, 3);
+    EXPECT_EQ(scaled_down(1e30, 1000, 1000).steps, 6u);
+}
+
 }  // namespace
 }  // namespace regather::trace
