@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,55 +26,29 @@ namespace {
 
 struct Options {
     cachesim::AddressFiles files;
-    std::string sizes, lines, ways, policies = "lru", machines;
-    std::string write = "back", write_miss = "allocate", index = "modulo";
-    std::uint64_t seed = 0;
+    experiment::CacheLists lists;
+    std::string machines;
     bool all_lru = false, no_3c = false;
     std::uint64_t opt_limit = cachesim::PolicySweepOptions{}.opt_limit;
     std::filesystem::path csv;
     bool force = false;
 };
 
-/// Every combination, sizes outermost, policies innermost. One that is not possible is left out and said;
-/// when none is possible, nothing can be simulated.
-std::vector<cachesim::PolicyConfig> combinations(const Options& options, const Console& console) {
+std::vector<cachesim::PolicyConfig> combinations(const experiment::CacheLists& lists,
+                                                 const Console& console) {
     for (const auto& [name, list] :
-         {std::pair{"--size", &options.sizes}, {"--line", &options.lines}, {"--ways", &options.ways}})
+         {std::pair{"--size", &lists.sizes}, {"--line", &lists.lines}, {"--ways", &lists.ways}})
         if (list->empty())
             throw trace::UsageError(fmt::format("{}: found none, expected one (or --machine)", name));
-    std::vector<cachesim::PolicyConfig> configs;
-    std::vector<std::string> impossible;
-    std::set<std::string> seen;
-    for (const cachesim::CacheConfig& geometry :
-         cachesim::multiplied_out(options.sizes, options.lines, options.ways))
-        for (const std::string_view policy : cachesim::list_parts(options.policies)) {
-            const cachesim::PolicyConfig config{geometry,
-                                                cachesim::parse_policy(policy),
-                                                cachesim::parse_write_policy(options.write),
-                                                cachesim::parse_write_miss(options.write_miss),
-                                                cachesim::parse_set_index(options.index),
-                                                options.seed};
-            const std::string name =
-                fmt::format("--size {} --line {} --ways {} --policy {}", geometry.size_bytes,
-                            geometry.line_bytes, cachesim::ways_text(geometry.ways), policy);
-            if (!seen.insert(name).second)
-                throw trace::UsageError(fmt::format("{}: found twice, expected each cache once", name));
-            try {
-                check(config);
-                configs.push_back(config);
-            } catch (const trace::UsageError& error) {
-                impossible.push_back(fmt::format("{}: {}", name, error.what()));
-            }
-        }
-    if (configs.empty()) throw trace::UsageError(impossible.front());
-    for (const std::string& text : impossible) fmt::print(console.err, "regather: left out {}\n", text);
-    return configs;
+    experiment::Combinations all = experiment::combinations(lists);
+    for (const std::string& text : all.left_out) fmt::print(console.err, "regather: left out {}\n", text);
+    return std::move(all.caches);
 }
 
 /// What the values tell: options that the others leave without effect.
 void check_effects(const Command& command, const Options& options) {
     const auto asks_for = [&](std::string_view policy) {
-        const auto all = cachesim::list_parts(options.policies);
+        const auto all = cachesim::list_parts(options.lists.policies);
         return std::find(all.begin(), all.end(), policy) != all.end();
     };
     for (const auto& [name, policy] : {std::pair{"--seed", "random"}, {"--opt-limit", "opt"}})
@@ -87,10 +60,10 @@ void check_effects(const Command& command, const Options& options) {
 /// Every LRU cache of the line sizes.
 std::vector<results::CacheRow> all_lru(const Options& options, const experiment::SweepListeners& listeners) {
     std::vector<std::uint32_t> line_sizes;
-    if (options.lines.empty()) throw trace::UsageError("--line: found none, expected one");
-    for (const std::string_view line : cachesim::list_parts(options.lines))
+    if (options.lists.lines.empty()) throw trace::UsageError("--line: found none, expected one");
+    for (const std::string_view line : cachesim::list_parts(options.lists.lines))
         line_sizes.push_back(cachesim::parse_line_bytes(line));
-    std::string_view ways = options.ways.empty() ? "16" : std::string_view(options.ways);
+    std::string_view ways = options.lists.ways.empty() ? "16" : std::string_view(options.lists.ways);
     const std::uint32_t most_ways = cachesim::parse_ways(ways);
     if (most_ways == cachesim::fully_associative || most_ways > 32)
         throw trace::UsageError(
@@ -113,7 +86,7 @@ void run(const Options& options, const Console& console) {
     if (!options.machines.empty())
         machines = experiment::load_machines(options.machines);
     else if (!options.all_lru)
-        configs = combinations(options, console);
+        configs = combinations(options.lists, console);
     if (!options.csv.empty()) results::refuse_to_overwrite(options.csv, options.force);
     std::vector<results::CacheRow> caches;
     std::vector<results::MachineRow> levels;
@@ -140,22 +113,24 @@ void add_cachesim(Command& command) {
             "ADDRESSES", options->files.addresses,
             "a .npy of uint64 byte addresses, or Dinero din text (label and hexadecimal address a line)")
         .required();
-    command.option("--size", options->sizes, "cache sizes in bytes: 4096, 16K, 1M");
-    command.option("--line", options->lines, "line sizes in bytes, powers of two");
-    command.option("--ways", options->ways, "ways: 1 is direct mapped, full is fully associative");
+    command.option("--size", options->lists.sizes, "cache sizes in bytes: 4096, 16K, 1M");
+    command.option("--line", options->lists.lines, "line sizes in bytes, powers of two");
+    command.option("--ways", options->lists.ways, "ways: 1 is direct mapped, full is fully associative");
     command.option("--machine", options->machines,
                    "in place of the three: memory systems, by name (see regather machines) or file");
-    command.option("--policy", options->policies, "what is replaced: lru, fifo, plru, srrip, random, opt");
-    command.option("--write", options->write, "back: dirty lines are written back; through: every write");
-    command.option("--write-miss", options->write_miss,
+    command.option("--policy", options->lists.policies,
+                   "what is replaced: lru, fifo, plru, srrip, random, opt");
+    command.option("--write", options->lists.write,
+                   "back: dirty lines are written back; through: every write");
+    command.option("--write-miss", options->lists.write_miss,
                    "allocate: fetches the line; no-allocate: the write goes past the cache");
-    command.option("--index", options->index,
+    command.option("--index", options->lists.index,
                    "set of a line: modulo, or hashed (all bits of its number, XORed)");
     command.flag(
         "--all-lru", options->all_lru,
         "in place of --size: every LRU cache of the lines, 1 to 65536 sets of 1 to 16 (or --ways, up to 32) "
         "ways, and fully associative ones, all from one pass");
-    command.option("--seed", options->seed, {}, "of the policy random");
+    command.option("--seed", options->lists.seed, {}, "of the policy random");
     command.flag("--no-3c", options->no_3c,
                  "leave compulsory, capacity and conflict empty: lru is several times faster");
     command.option("--opt-limit", options->opt_limit, {},

@@ -15,8 +15,6 @@
 #include "results/csv.h"
 #include "results/geometry.h"
 #include "results/provenance.h"
-#include "trace/error.h"
-#include "trace/file.h"
 #include "trace/size.h"
 
 namespace regather::cli {
@@ -30,27 +28,6 @@ struct Options {
     bool no_buffers = false, force = false;
 };
 
-/// Before anything is computed. Looks at the provenance beside each CSV, too.
-void check_outputs(const Options& options) {
-    std::vector<std::filesystem::path> files;
-    for (const auto& [option, csv] : {std::pair{"--csv", options.csv}, {"--timeline", options.timeline}}) {
-        if (csv.empty()) continue;
-        const std::filesystem::path json = results::provenance_path(csv);
-        if (json == csv)
-            throw trace::UsageError(fmt::format(
-                "{}: found {}, expected another ending than .json, which the provenance beside it bears",
-                option, csv.string()));
-        files.push_back(csv);
-        files.push_back(json);
-    }
-    if (files.size() == 4 && files[1] == files[3])
-        throw trace::UsageError(
-            fmt::format("--timeline: found {}, expected another name than that of --csv, for the "
-                        "provenance beside it",
-                        options.timeline.string()));
-    trace::refuse_to_overwrite(files, options.force);
-}
-
 template <class R>
 void write(const std::filesystem::path& csv, const std::vector<R>& rows, const trace::TraceReader& trace,
            const Console& console) {
@@ -60,7 +37,8 @@ void write(const std::filesystem::path& csv, const std::vector<R>& rows, const t
 }
 
 void run(const Options& options, const Console& console) {
-    check_outputs(options);
+    const results::Output outputs[] = {{"--csv", options.csv}, {"--timeline", options.timeline}};
+    results::refuse_to_overwrite(outputs, options.force);
     const auto [orderings, reads] = experiment::parse_orderings(options.orders);
     const auto caches = cachesim::parse_caches(options.caches);
     const std::uint64_t onchip = trace::parse_size(options.onchip);

@@ -12,14 +12,11 @@
 #include "cli/interruption.h"
 #include "cli/progress.h"
 #include "cli/version.h"
-#include "experiment/capture_job.h"
 #include "experiment/experiment.h"
-#include "experiment/parts.h"
-#include "results/benefit.h"
+#include "experiment/experiment_job.h"
 #include "results/csv.h"
 #include "results/provenance.h"
 #include "results/traffic_table.h"
-#include "trace/folder.h"
 
 namespace regather::cli {
 namespace {
@@ -31,36 +28,19 @@ struct Options {
     bool force = false;
 };
 
-/// All rows, and what they are of.
-struct Made {
-    std::vector<fs::path> folders;  ///< One a frame.
-    std::vector<results::Row> rows;
-    std::vector<std::string> checksums;
-    trace::Json parameters;
-};
-
-Made make(const experiment::Experiment& experiment, const Options& options, const Console& console) {
+experiment::ExperimentResult make(const experiment::Experiment& experiment, const Options& options,
+                                  const Console& console) {
     const Interruption interruption;
-    const trace::FolderLock lock(options.folder);
     try {
         Progress progress(console);
-        const experiment::ProgressListener listener = interruption.ending(progress.listener());
-        const experiment::CaptureResult captured =
-            experiment::run({experiment.scene, experiment.capture, experiment::reads(experiment),
-                             options.folder, options.force, progress.note_listener()},
-                            listener);
-        progress.clear();
-        console.print("{}", captured.report);
-        std::fflush(console.out);
-        Made made{captured.folders, {}, {}, {}};
-        for (const fs::path& folder : captured.folders) {
-            trace::TraceReader trace(folder / "trace");
-            for (results::Row& row : rows_of(trace, experiment, {folder / "parts", git_revision()}, listener))
-                made.rows.push_back(std::move(row));
-            made.checksums.push_back(trace.checksum());
-            made.parameters = trace.info().parameters;
-        }
-        return made;
+        const auto print_report = [&](const experiment::CaptureResult& captured) {
+            progress.clear();
+            console.print("{}", captured.report);
+            std::fflush(console.out);
+        };
+        return experiment::run({experiment, options.folder, git_revision(), options.force,
+                                progress.note_listener(), print_report},
+                               interruption.ending(progress.listener()));
     } catch (const Interrupted& interrupted) {
         throw Interrupted(interrupted.signal,
                           fmt::format("{}: interrupted: finished parts are there; the same command "
@@ -71,9 +51,7 @@ Made make(const experiment::Experiment& experiment, const Options& options, cons
 
 void run(const Options& options, const Console& console) {
     const experiment::Experiment experiment = experiment::load_experiment(options.experiment);
-    Made made = make(experiment, options, console);
-    if (made.folders.size() > 1) made.parameters["frame"] = experiment.capture.frames;
-    results::fill_net_benefit(made.rows);
+    const experiment::ExperimentResult made = make(experiment, options, console);
     const fs::path csv = options.folder / "rows.csv";
     results::write_csv(csv, made.rows);
     results::write_provenance(csv, provenance(console, fmt::format("{}", fmt::join(made.checksums, " "))),

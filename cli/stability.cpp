@@ -54,18 +54,11 @@ void run(const Options& options, const Console& console) {
     const std::filesystem::path csv = options.folder / "stability.csv";
     if (!options.folder.empty()) results::refuse_to_overwrite(csv, options.force);
 
-    std::vector<std::pair<const study::CaseGroup*, study::Case>> cases;
-    for (const study::CaseGroup* group : groups)
-        for (study::Case& one : group->cases())
-            if (!options.quick || !one.full_only) cases.emplace_back(group, std::move(one));
     std::vector<results::StabilityRow> rows;
     {
         Progress progress(console);
-        for (const auto& [group, one] : cases) {
-            progress.update(fmt::format("{}: {}", group->name, one.name), "cases", rows.size(), cases.size());
-            rows.push_back(
-                study::run_case(*group, one, options.quick ? study::Effort::quick : study::Effort::full));
-        }
+        rows = study::run_cases(groups, options.quick ? study::Effort::quick : study::Effort::full,
+                                progress.listener());
     }
     console.print("{}", results::text_of(results::stability_table(rows)));
     if (!options.folder.empty()) {

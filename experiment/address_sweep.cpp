@@ -4,6 +4,7 @@
 #include <tbb/parallel_for_each.h>
 
 #include <algorithm>
+#include <set>
 
 #include "cachesim/cache_list.h"
 #include "cachesim/lru/family_sweep.h"
@@ -66,6 +67,34 @@ bool took_part(const Hierarchy& hierarchy, trace::Region region) {
 }
 
 }  // namespace
+
+Combinations combinations(const CacheLists& lists) {
+    Combinations all;
+    std::set<std::string> seen;
+    for (const cachesim::CacheConfig& geometry :
+         cachesim::multiplied_out(lists.sizes, lists.lines, lists.ways))
+        for (const std::string_view policy : cachesim::list_parts(lists.policies)) {
+            const cachesim::PolicyConfig config{geometry,
+                                                cachesim::parse_policy(policy),
+                                                cachesim::parse_write_policy(lists.write),
+                                                cachesim::parse_write_miss(lists.write_miss),
+                                                cachesim::parse_set_index(lists.index),
+                                                lists.seed};
+            const std::string name =
+                fmt::format("--size {} --line {} --ways {} --policy {}", geometry.size_bytes,
+                            geometry.line_bytes, cachesim::ways_text(geometry.ways), policy);
+            if (!seen.insert(name).second)
+                throw trace::UsageError(fmt::format("{}: found twice, expected each cache once", name));
+            try {
+                check(config);
+                all.caches.push_back(config);
+            } catch (const trace::UsageError& error) {
+                all.left_out.push_back(fmt::format("{}: {}", name, error.what()));
+            }
+        }
+    if (all.caches.empty()) throw trace::UsageError(all.left_out.front());
+    return all;
+}
 
 std::vector<results::CacheRow> sweep_policies(const cachesim::AddressFiles& files,
                                               std::span<const cachesim::PolicyConfig> configs,

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +21,22 @@ struct SweepListeners {
     ProgressListener progress;
     NoteListener note;  ///< What the trace's reader passed over, a line each.
 };
+
+/// Lists, separated by commas, that are multiplied out, and what all caches have in common.
+struct CacheLists {
+    std::string sizes, lines, ways, policies = "lru";
+    std::string write = "back", write_miss = "allocate", index = "modulo";
+    std::uint64_t seed = 0;  ///< Of the policy random.
+};
+
+struct Combinations {
+    std::vector<cachesim::PolicyConfig> caches;
+    std::vector<std::string> left_out;  ///< Those that are not possible, a line each, with the reason.
+};
+
+/// Every combination, sizes outermost, policies innermost. Throws trace::UsageError for one that is there
+/// twice, and when none is possible.
+Combinations combinations(const CacheLists& lists);
 
 /// A row for each cache, in their order.
 std::vector<results::CacheRow> sweep_policies(const cachesim::AddressFiles& files,

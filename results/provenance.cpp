@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <map>
 
 #include "trace/error.h"
 #include "trace/field.h"
@@ -16,13 +17,28 @@ std::filesystem::path provenance_path(const std::filesystem::path& csv) {
 }
 
 void refuse_to_overwrite(const std::filesystem::path& csv, bool force) {
-    const std::filesystem::path json = provenance_path(csv);
-    if (json == csv)
-        throw trace::UsageError(
-            fmt::format("--csv: found {}, expected another ending than .json, which the provenance "
-                        "beside it bears",
-                        csv.string()));
-    trace::refuse_to_overwrite(std::array{csv, json}, force);
+    refuse_to_overwrite(std::array{Output{"--csv", csv}}, force);
+}
+
+void refuse_to_overwrite(std::span<const Output> outputs, bool force) {
+    std::vector<std::filesystem::path> files;
+    std::map<std::filesystem::path, std::string_view> asked_by;  // of the JSON files
+    for (const auto& [option, csv] : outputs) {
+        if (csv.empty()) continue;
+        const std::filesystem::path json = provenance_path(csv);
+        if (json == csv)
+            throw trace::UsageError(fmt::format(
+                "{}: found {}, expected another ending than .json, which the provenance beside it bears",
+                option, csv.string()));
+        if (const auto [other, first] = asked_by.try_emplace(json, option); !first)
+            throw trace::UsageError(
+                fmt::format("{}: found {}, expected another name than that of {}, for the provenance "
+                            "beside it",
+                            option, csv.string(), other->second));
+        files.push_back(csv);
+        files.push_back(json);
+    }
+    trace::refuse_to_overwrite(files, force);
 }
 
 void write_provenance(const std::filesystem::path& csv, const Provenance& provenance,

@@ -2,7 +2,9 @@
 // so that the same run writes the same bytes anywhere.
 #pragma once
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trace/json.h"
@@ -22,6 +24,14 @@ std::filesystem::path provenance_path(const std::filesystem::path& csv);
 /// Throws trace::UsageError when `csv` or the JSON beside it exists, unless forced: somebody's X.json is not
 /// ours to replace. And when `csv` bears the JSON's name, forced or not.
 void refuse_to_overwrite(const std::filesystem::path& csv, bool force);
+
+/// A file of rows that an option of the command line asks for.
+struct Output {
+    std::string_view option;    ///< "--csv"
+    std::filesystem::path csv;  ///< Empty: not asked for.
+};
+/// The same for several, and when two would share the JSON beside them.
+void refuse_to_overwrite(std::span<const Output> outputs, bool force);
 
 /// What a file of results says of the renderer that it came from.
 struct Origin {

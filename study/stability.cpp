@@ -71,4 +71,18 @@ results::StabilityRow run_case(const CaseGroup& group, const Case& one, Effort e
     return row;
 }
 
+std::vector<results::StabilityRow> run_cases(std::span<const CaseGroup* const> of, Effort effort,
+                                             const experiment::ProgressListener& told) {
+    std::vector<std::pair<const CaseGroup*, Case>> cases;
+    for (const CaseGroup* group : of)
+        for (Case& one : group->cases())
+            if (effort == Effort::full || !one.full_only) cases.emplace_back(group, std::move(one));
+    std::vector<results::StabilityRow> rows;
+    for (const auto& [group, one] : cases) {
+        if (told) told(fmt::format("{}: {}", group->name, one.name), "cases", rows.size(), cases.size());
+        rows.push_back(run_case(*group, one, effort));
+    }
+    return rows;
+}
+
 }  // namespace regather::study

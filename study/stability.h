@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "experiment/progress.h"
 #include "results/stability_row.h"
 #include "study/case.h"
 
@@ -24,5 +25,9 @@ const CaseGroup& case_group(std::string_view name);
 
 /// Runs one case; a case that throws has failed, and `reason` is the error's message.
 results::StabilityRow run_case(const CaseGroup& group, const Case& one, Effort effort);
+
+/// Runs all cases of the groups, one after the other; a quick run leaves out those that are for a full one.
+std::vector<results::StabilityRow> run_cases(std::span<const CaseGroup* const> of, Effort effort,
+                                             const experiment::ProgressListener& told);
 
 }  // namespace regather::study

@@ -1,0 +1,36 @@
+// experiment/experiment_job.h -- an experiment from its file to its rows: OUT as a capture fills it
+// (experiment/capture_job.h), and the finished parts of each frame in OUT/parts/ or OUT/frame-0005/parts/.
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "experiment/capture_job.h"
+#include "experiment/experiment.h"
+#include "experiment/progress.h"
+#include "results/row.h"
+#include "trace/json.h"
+
+namespace regather::experiment {
+
+struct ExperimentJob {
+    const Experiment& experiment;
+    std::filesystem::path folder;
+    std::string revision;  ///< Of the code: parts of another one are made again.
+    bool force = false;    ///< Capture again over another capture.
+    NoteListener note = {};
+    std::function<void(const CaptureResult&)> captured = {};  ///< Told once, before the replays.
+};
+
+struct ExperimentResult {
+    std::vector<std::filesystem::path> folders;  ///< One a frame.
+    std::vector<results::Row> rows;              ///< Frame by frame, with net benefits.
+    std::vector<std::string> checksums;          ///< Of the traces, one a frame.
+    trace::Json parameters;                      ///< Of the capture.
+};
+
+/// What is finished is kept and not made again; a listener that throws ends it. Holds the folder's lock.
+ExperimentResult run(const ExperimentJob& job, const ProgressListener& progress);
+
+}  // namespace regather::experiment
