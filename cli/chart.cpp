@@ -64,7 +64,7 @@ std::string footer() {
         out += fmt::format("  {:<22}{}; needs {}\n", kind.name, kind.title, kind.needs);
     return out +
            "\nExamples:\n"
-           "  regather chart runs/room/results.csv -o runs/room/charts\n"
+           "  regather chart runs/room/rows.csv -o runs/room/charts\n"
            "  regather chart mine.csv -o charts --kind traffic-by-tile --cache 64K:64:full --force\n"
            "  regather chart rows.csv sampling.csv -o charts\n";
 }

@@ -1,4 +1,4 @@
-// charts/benefit.h -- what an ordering saves net of what it costs: the buffers of a deferred ordering that
+// results/benefit.h -- what an ordering saves net of what it costs: the buffers of a deferred ordering that
 // do not fit the chip go through memory, too, so the traffic of the photons alone flatters it (section 5 of
 // the paper).
 #pragma once

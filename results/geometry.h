@@ -1,4 +1,4 @@
-// charts/geometry.h -- the shape of a cache as people write and read it, and bytes in units that fit a cell.
+// results/geometry.h -- the shape of a cache as people write and read it, and bytes in units that fit a cell.
 // Cache sizes are powers of two and get KiB, MiB; traffic gets decimal units (1 GB = 1e9 bytes), as in the
 // paper.
 #pragma once

@@ -16,7 +16,7 @@
 namespace regather::results {
 namespace {
 
-constexpr const char* issue_header =
+constexpr const char* first_header =
     "scene,frame,ordering,tile,bins,structure,layout,policy,cache_bytes,line_bytes,ways,queries,accesses,"
     "raw_bytes,oracle_bytes,compulsory_bytes,misses,traffic_bytes,reorder_bytes,key_ops,moved_records,"
     "buffered_bytes,recast_rays,order_seconds,replay_seconds";
@@ -46,7 +46,7 @@ rc::Gen<Count> any_count() {
 }
 
 TEST(Csv, BeginsWithTheColumnsOfTheContractInTheirOrder) {
-    EXPECT_EQ(to_csv({}), std::string(issue_header) + further_header);
+    EXPECT_EQ(to_csv({}), std::string(first_header) + further_header);
 }
 
 TEST(Csv, WritesAMeasurementAsDrawnByHand) {
@@ -72,7 +72,7 @@ TEST(Csv, WritesAMeasurementAsDrawnByHand) {
     row.misses_stderr = 0.1;
     EXPECT_EQ(
         to_csv(std::span(&row, 1)),
-        std::string(issue_header) + further_header +
+        std::string(first_header) + further_header +
             "room,,direction-binned,16,8,left-balanced-kd,heap-20,lru,131072,128,full,1000,140000,"
             ",,,0,0,,,,,,0.250000,12.000000,\"direction-binned:tile=16,bins=8\",,,,,,,,,,-20,,,0.1,,\n");
 }
