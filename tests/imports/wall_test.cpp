@@ -5,19 +5,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "meshes/weld.h"
 #include "tests/scenes/closed_surface.h"
 #include "trace/bounds.h"
 
 namespace regather::imports {
 
-using scenes::is_closed;
-
-using meshes::as_solid;
-using scenes::Box;
-using scenes::Quad;
-using scenes::Sphere;
 namespace {
+
+using scenes::is_closed;
 
 HomeWall wall(std::string id, PlanPoint start, PlanPoint end, double thickness = 10) {
     HomeWall w;
@@ -189,76 +184,6 @@ TEST(Wall, WallsWithoutLengthOrThicknessGiveNothing) {
         EXPECT_NEAR(volume(surface), 0, 1e-9);
         for (const Vec3 p : surface.vertices) EXPECT_TRUE(trace::is_finite(p));
     }
-}
-
-double area(const std::vector<PlanPoint>& polygon) {
-    double sum = 0;
-    for (const auto& [a, b, c] : triangulate(polygon)) {
-        const double twice = twice_area(std::vector{polygon[a], polygon[b], polygon[c]});
-        EXPECT_EQ(twice > 0, twice_area(polygon) > 0);
-        sum += std::abs(twice) / 2;
-    }
-    return sum;
-}
-
-TEST(Polygon, TrianglesCoverExactlyThePolygon) {
-    const std::vector<PlanPoint> l_shape{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}};
-    EXPECT_NEAR(area(l_shape), 6, 1e-12);
-    EXPECT_NEAR(area({l_shape.rbegin(), l_shape.rend()}), 6, 1e-12);
-    EXPECT_NEAR(area({{0, 0}, {2, 0}, {2, 0}, {4, 0}, {4, 2}, {0, 2}}), 8,
-                1e-12);  // with a repeated and a flat corner
-    std::vector<PlanPoint> comb;
-    for (int i = 0; i < 20; ++i) {
-        comb.push_back({2.0 * i, 0});
-        comb.push_back({2.0 * i + 1, 10});
-    }
-    comb.push_back({39, -1});
-    comb.push_back({0, -1});
-    EXPECT_NEAR(area(comb), std::abs(twice_area(comb)) / 2, 1e-9);
-}
-
-TEST(Polygon, NonsenseEnds) {
-    EXPECT_TRUE(triangulate(std::vector<PlanPoint>{}).empty());
-    EXPECT_TRUE(triangulate(std::vector<PlanPoint>{{0, 0}, {1, 1}}).empty());
-    EXPECT_TRUE(triangulate(std::vector<PlanPoint>{{0, 0}, {1, 1}, {2, 2}, {3, 3}}).empty());
-    EXPECT_LE(triangulate(std::vector<PlanPoint>{{0, 0}, {2, 2}, {2, 0}, {0, 2}}).size(), 2u);  // a bow tie
-}
-
-TEST(Weld, GlassBecomesSolidAndFacesOutward) {
-    Surface box = tessellate(Box{{0, 0, 0}, {1, 1, 1}});
-    EXPECT_TRUE(is_closed(box));
-    for (auto& triangle : box.triangles) std::swap(triangle[1], triangle[2]);
-    EXPECT_NEAR(volume(as_solid(box, 0.1f)), 1, 1e-6);
-    const Surface sheet = as_solid(tessellate(Quad{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {2, 2}}), 0.1f);
-    EXPECT_TRUE(is_closed(sheet));
-    EXPECT_NEAR(volume(sheet), 0.6, 1e-6);
-}
-
-TEST(Weld, ACavityStaysACavity) {
-    Surface box = tessellate(Box{{0, 0, 0}, {1, 1, 1}}),
-            hole = tessellate(Box{{0.25f, 0.25f, 0.25f}, {0.75f, 0.75f, 0.75f}});
-    const auto first = static_cast<std::uint32_t>(box.vertices.size());
-    box.vertices.insert(box.vertices.end(), hole.vertices.begin(), hole.vertices.end());
-    box.normals.insert(box.normals.end(), hole.normals.begin(), hole.normals.end());
-    for (const auto& [a, b, c] : hole.triangles) box.triangles.push_back({first + a, first + c, first + b});
-    EXPECT_NEAR(volume(as_solid(box, 0.1f)), 1 - 0.125, 1e-6);
-}
-
-TEST(Weld, NormalsAreSmoothAcrossGentleEdgesOnly) {
-    Surface sphere = tessellate(Sphere{{0, 0, 0}, 1, 32});
-    sphere.normals.assign(sphere.vertices.size(), {});
-    const Surface smooth = with_smooth_normals(sphere, 40);
-    for (std::size_t v = 0; v < smooth.vertices.size(); ++v)
-        EXPECT_GT(dot(smooth.normals[v], smooth.vertices[v]), 0.99f);
-    const Surface box = with_smooth_normals(tessellate(Box{{0, 0, 0}, {1, 1, 1}}), 40);
-    for (const Vec3 n : box.normals) EXPECT_NEAR(std::abs(n.x) + std::abs(n.y) + std::abs(n.z), 1, 1e-6);
-}
-
-TEST(Weld, SimplifyingKeepsTheShapeAndDropsDetail) {
-    const Surface sphere = tessellate(Sphere{{0, 0, 0}, 1, 256});
-    const Surface simple = simplified(sphere, 0.1f);
-    EXPECT_LT(simple.triangles.size(), sphere.triangles.size() / 4);
-    EXPECT_NEAR(volume(simple), 4.0 / 3 * std::numbers::pi, 0.1);
 }
 
 }  // namespace

@@ -77,6 +77,13 @@ inline constexpr std::array<std::array<int, 3>, 8> box_corners{
 inline constexpr std::array<std::array<int, 4>, 6> box_faces{
     {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
 
+/// `what`, wherever it stands, by another text.
+inline std::string replaced(std::string text, const std::string& what, const std::string& by) {
+    for (std::size_t at = text.find(what); at != text.npos; at = text.find(what, at + by.size()))
+        text.replace(at, what.size(), by);
+    return text;
+}
+
 template <class Value>
 void put(std::string& bytes, Value value, bool big_endian = false) {
     char raw[sizeof value];

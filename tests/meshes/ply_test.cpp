@@ -38,12 +38,6 @@ std::string ascii_box() {
     return ascii(vertex_lines + face_lines, corner_rows() + face_rows());
 }
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-    for (std::size_t at = text.find(what); at != text.npos; at = text.find(what, at + by.size()))
-        text.replace(at, what.size(), by);
-    return text;
-}
-
 // A binary box whose corners are of type Coordinate and whose indices are of type Index.
 template <class Coordinate, class Index>
 std::string binary(const std::string& coordinate, const std::string& index, bool big_endian,

@@ -161,5 +161,39 @@ TEST(Polygon, InSpaceItFacesAlongItsNormalWhicheverAxisThatIsNear) {
         }
 }
 
+/// Of its triangles, which all run as it does.
+double covered_area(const Polygon& polygon) {
+    double sum = 0;
+    for (const auto& [a, b, c] : triangulate(polygon)) {
+        const double twice = twice_area(Polygon{polygon[a], polygon[b], polygon[c]});
+        EXPECT_EQ(twice > 0, twice_area(polygon) > 0);
+        sum += std::abs(twice) / 2;
+    }
+    return sum;
+}
+
+TEST(Polygon, TrianglesCoverExactlyThePolygon) {
+    const Polygon l_shape{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}};
+    EXPECT_NEAR(covered_area(l_shape), 6, 1e-12);
+    EXPECT_NEAR(covered_area({l_shape.rbegin(), l_shape.rend()}), 6, 1e-12);
+    EXPECT_NEAR(covered_area({{0, 0}, {2, 0}, {2, 0}, {4, 0}, {4, 2}, {0, 2}}), 8,
+                1e-12);  // with a repeated and a flat corner
+    Polygon comb;
+    for (int i = 0; i < 20; ++i) {
+        comb.push_back({2.0 * i, 0});
+        comb.push_back({2.0 * i + 1, 10});
+    }
+    comb.push_back({39, -1});
+    comb.push_back({0, -1});
+    EXPECT_NEAR(covered_area(comb), std::abs(twice_area(comb)) / 2, 1e-9);
+}
+
+TEST(Polygon, NonsenseEnds) {
+    EXPECT_TRUE(triangulate(Polygon{}).empty());
+    EXPECT_TRUE(triangulate(Polygon{{0, 0}, {1, 1}}).empty());
+    EXPECT_TRUE(triangulate(Polygon{{0, 0}, {1, 1}, {2, 2}, {3, 3}}).empty());
+    EXPECT_LE(triangulate(Polygon{{0, 0}, {2, 2}, {2, 0}, {0, 2}}).size(), 2u);  // a bow tie
+}
+
 }  // namespace
 }  // namespace regather::meshes
