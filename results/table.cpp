@@ -85,23 +85,6 @@ std::string text_of(std::span<const Table> tables, std::size_t widest) {
     return out;
 }
 
-std::string csv_of(const Table& table) {
-    const std::vector<bool> shown = table.shown();
-    std::string out;
-    const auto add = [&](const std::vector<std::string>& cells) {
-        bool first = true;
-        for (std::size_t c = 0; c < cells.size(); ++c) {
-            if (!shown[c]) continue;
-            out += (first ? "" : ",") + csv_cell(cells[c]);
-            first = false;
-        }
-        out += '\n';
-    };
-    add(names_of(table));
-    for (const auto& line : table.lines()) add(line);
-    return out;
-}
-
 Table table_of(const RowKind& kind, std::size_t count, const void* (*row)(const void*, std::size_t),
                const void* rows) {
     std::vector<Table::Head> heads;

@@ -50,9 +50,6 @@ std::string text_of(const Table& table, std::size_t widest = 0);
 /// Several, with an empty line between them.
 std::string text_of(std::span<const Table> tables, std::size_t widest = 0);
 
-/// Header and lines as comma-separated values: RFC 4180 quoting, LF line ends. Title and notes are left out.
-std::string csv_of(const Table& table);
-
 /// All columns of rows that say something, as the CSV has them.
 Table table_of(const RowKind& kind, std::size_t count,
                const void* (*row)(const void* rows, std::size_t place), const void* rows);

@@ -187,15 +187,6 @@ void Candidates::clear() {
     bound2_ = capacity_ == 0 ? -1.0f : radius2_;
 }
 
-std::vector<Neighbor> Candidates::nearest_first() const {
-    std::vector<Neighbor> list;
-    for (std::size_t i = 0; i < count_; ++i) list.push_back((*this)[i]);
-    std::sort(list.begin(), list.end(), [](const Neighbor& a, const Neighbor& b) {
-        return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.node < b.node);
-    });
-    return list;
-}
-
 void Candidates::keep_within(float distance2) {
     const __m256 bound = _mm256_set1_ps(distance2);
     std::size_t kept = 0;

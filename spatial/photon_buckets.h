@@ -33,7 +33,6 @@ public:
     }
     std::span<const float> distances2() const { return {distance2_.data(), count_}; }
     std::span<const std::uint32_t> nodes() const { return {node_.data(), count_}; }
-    std::vector<Neighbor> nearest_first() const;
 
 private:
     friend void nearest(const PhotonBuckets&, Vec3, Candidates&);
@@ -67,7 +66,6 @@ public:
 
     std::uint32_t size() const { return size_; }
     std::size_t buckets() const { return leaves_.size(); }
-    std::size_t memory_bytes() const { return leaves_.size() * sizeof(Leaf) + inner_.size() * sizeof(Inner); }
 
 private:
     friend void nearest(const PhotonBuckets&, Vec3, Candidates&);

@@ -72,7 +72,6 @@ TriangleBvh::TriangleBvh(std::span<const Vec3> vertices, std::span<const Triangl
         }
         for (const std::uint32_t t : node->numbers) leaf_of_triangle_[t] = leaf_count();
         leaf_triangles_.insert(leaf_triangles_.end(), node->numbers.begin(), node->numbers.end());
-        leaf_bounds_.push_back(node->bounds);
         leaf_begin_.push_back(leaf_triangles_.size());
         depth_ = std::max(depth_, depth);
     }

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "spatial/rays/triangle.h"
-#include "trace/bounds.h"
 #include "trace/vec.h"
 
 namespace regather::spatial {
@@ -36,14 +35,12 @@ public:
     std::uint32_t leaf_count() const { return std::uint32_t(leaf_begin_.size() - 1); }
     std::uint32_t depth() const { return depth_; }  ///< Of the deepest leaf; the root's is 0.
 
-    const std::vector<trace::Bounds3>& leaf_bounds() const { return leaf_bounds_; }  ///< By label; tight.
-    std::span<const std::uint32_t> triangles_of_leaf(std::uint32_t label) const;     ///< Ascending.
+    std::span<const std::uint32_t> triangles_of_leaf(std::uint32_t label) const;  ///< Ascending.
 
 private:
     std::vector<std::uint32_t> leaf_of_triangle_;
     std::vector<std::uint64_t> leaf_begin_{0};
     std::vector<std::uint32_t> leaf_triangles_;
-    std::vector<trace::Bounds3> leaf_bounds_;
     std::uint32_t depth_ = 0;
 };
 

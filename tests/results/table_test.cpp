@@ -44,10 +44,6 @@ TEST(Table, TheFirstColumnGivesWayToTheWidth) {
     EXPECT_EQ(text_of(table, 5), "what               a\nthirteen ...  123456\n");  // 12 at the least
 }
 
-TEST(Table, AsCsvItHasQuotesAndNoNotes) {
-    EXPECT_EQ(csv_of(drawn()), "name,count\n\"é, \"\"x\"\"\",7\nmuch too long,12345\n");
-}
-
 TEST(Table, SeveralStandApart) {
     Table one({{"a"}});
     one.add({"1"});

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include "tests/spatial/brute_force.h"
 #include "tests/spatial/flann_search.h"
 #include "tests/spatial/photons.h"
 
@@ -10,26 +11,6 @@ namespace regather::spatial {
 namespace {
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
-
-/// By the definition: all distances, sorted by (distance, node).
-std::vector<Neighbor> brute_force(std::span<const Photon> heap, Vec3 point, std::size_t k, float radius) {
-    std::vector<Neighbor> all;
-    for (std::uint32_t i = 0; i < heap.size(); ++i) {
-        const Vec3 d = point - heap[i].position;
-        if (const float distance2 = dot(d, d); distance2 <= radius * radius) all.push_back({distance2, i});
-    }
-    std::sort(all.begin(), all.end(), [](const Neighbor& a, const Neighbor& b) {
-        return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.node < b.node);
-    });
-    all.resize(std::min(all.size(), k));
-    return all;
-}
-
-bool same(const std::vector<Neighbor>& a, const std::vector<Neighbor>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Neighbor& x, const Neighbor& y) {
-        return x.distance2 == y.distance2 && x.node == y.node;
-    });
-}
 
 std::vector<Neighbor> search(std::span<const Photon> heap, Vec3 point, std::uint32_t k,
                              float radius = infinite) {
@@ -68,9 +49,6 @@ TEST_P(NearestInCloud, EqualsFlannsExactSearchAndBruteForce) {
         for (std::size_t i = 0; i < k; ++i)
             ASSERT_NEAR(distances2[i], ours[i].distance2, 1e-6f * ours[i].distance2 + 1e-12f);
     }
-}
-std::vector<trace::Photon> uniform_cloud(std::size_t count) {
-    return uniform_photons(count);
 }
 INSTANTIATE_TEST_SUITE_P(Clouds, NearestInCloud,
                          testing::Values(uniform_cloud, clustered_photons, coplanar_photons,

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "tests/spatial/brute_force.h"
 #include "tests/spatial/photons.h"
 #include "trace/error.h"
 
@@ -13,31 +15,18 @@ namespace {
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
-bool same(const std::vector<Neighbor>& a, const std::vector<Neighbor>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Neighbor& x, const Neighbor& y) {
-        return x.distance2 == y.distance2 && x.node == y.node;
-    });
-}
-
-/// By the definition: all distances, sorted by (distance, node).
-std::vector<Neighbor> brute_force(std::span<const Photon> photons, Vec3 point, std::size_t k, float radius) {
-    std::vector<Neighbor> all;
-    for (std::uint32_t i = 0; i < photons.size(); ++i) {
-        const Vec3 d = point - photons[i].position;
-        if (const float distance2 = dot(d, d); distance2 <= radius * radius) all.push_back({distance2, i});
-    }
-    std::sort(all.begin(), all.end(), [](const Neighbor& a, const Neighbor& b) {
-        return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.node < b.node);
-    });
-    all.resize(std::min(all.size(), k));
-    return all;
+std::vector<Neighbor> nearest_first(const Candidates& found) {
+    std::vector<Neighbor> list;
+    for (std::size_t i = 0; i < found.size(); ++i) list.push_back(found[i]);
+    std::sort(list.begin(), list.end(), is_nearer);
+    return list;
 }
 
 std::vector<Neighbor> search(const PhotonBuckets& tree, Vec3 point, std::uint32_t k,
                              float radius = infinite) {
     Candidates found(k, radius);
     nearest(tree, point, found);
-    return found.nearest_first();
+    return nearest_first(found);
 }
 
 TEST(PhotonBuckets, FindWhatBruteForceFindsNodeForNode) {
@@ -66,13 +55,9 @@ TEST_P(BucketsOfCloud, FindWhatTheLeftBalancedTreeFindsNodeForNode) {
             if (q % 2 == 0) point = heap[static_cast<std::size_t>(q) * 50].position;  // on a photon
             nearest(tree, point, found);
             nearest(PhotonKd(heap), point, expected);
-            ASSERT_TRUE(same(found.nearest_first(), expected.nearest_first()))
-                << "k " << k << ", query " << q;
+            ASSERT_TRUE(same(nearest_first(found), expected.nearest_first())) << "k " << k << ", query " << q;
         }
     }
-}
-std::vector<trace::Photon> uniform_cloud(std::size_t count) {
-    return uniform_photons(count);
 }
 std::vector<trace::Photon> all_in_one_place(std::size_t count) {
     return std::vector<trace::Photon>(count, trace::Photon{.position = {0.5f, 0.25f, 0.125f}});

@@ -38,6 +38,11 @@ inline std::vector<trace::Photon> uniform_photons(std::size_t count, std::uint64
     return photons;
 }
 
+/// With one parameter, as the other clouds.
+inline std::vector<trace::Photon> uniform_cloud(std::size_t count) {
+    return uniform_photons(count);
+}
+
 inline std::vector<trace::Photon> coplanar_photons(std::size_t count) {
     std::vector<trace::Photon> photons = uniform_photons(count);
     for (trace::Photon& p : photons) p.position.z = 0.25f;
