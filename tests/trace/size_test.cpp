@@ -38,7 +38,7 @@ TEST(SizeText, IsTheShortestThatReadsAsTheSame) {
     for (const auto& [bytes, text] : {std::pair{std::uint64_t{0}, "0"},
                                       {1023, "1023"},
                                       {1024, "1K"},
-                                      {1025, "1025"},
+                                      {1536, "1536"},
                                       {98304, "96K"},
                                       {3 << 20, "3M"},
                                       {std::uint64_t{5} << 30, "5120M"}}) {
