@@ -11,6 +11,7 @@
 #include "meshes/affine.h"
 #include "meshes/gltf_accessor.h"
 #include "meshes/gltf_file.h"
+#include "meshes/gltf_keys.h"
 #include "meshes/gltf_material.h"
 #include "meshes/notes.h"
 #include "trace/text.h"
@@ -64,16 +65,16 @@ private:
             Affine place;
         };
         const std::vector<Field>& nodes = file_.list("nodes");
-        std::vector<bool> is_visited(nodes.size());
         std::vector<Visit> open;
+        is_shown_.assign(nodes.size(), false);
         for (std::size_t i = roots.size(); i-- > 0;) open.push_back({roots[i], {}});
         while (!open.empty()) {
             const Visit visit = open.back();
             open.pop_back();
             const Field& node = nodes[visit.node];
-            if (is_visited[visit.node])
+            if (is_shown_[visit.node])
                 node.fail("a node in two places or in a circle", "nodes that make trees");
-            is_visited[visit.node] = true;
+            is_shown_[visit.node] = true;
             const Affine place = visit.place * place_of(node);
             if (const auto mesh = node.get("mesh")) add_mesh(node, file_.element("meshes", *mesh), place);
             if (node.has("camera")) notes_.add("cameras are not read");
@@ -86,9 +87,43 @@ private:
         }
     }
 
+    // Nodes with a mesh that neither the default scene nor another one leads to, and meshes of no node.
+    void note_what_no_scene_shows() {
+        const std::vector<Field>& nodes = file_.list("nodes");
+        std::vector<std::size_t> open;
+        const auto add = [&](const std::optional<Field>& list) {
+            if (!list) return;
+            for (const Field& field : list->elements())
+                if (const std::size_t node = file_.index("nodes", field); !is_shown_[node]) {
+                    is_shown_[node] = true;
+                    open.push_back(node);
+                }
+        };
+        for (const Field& scene : file_.list("scenes")) {
+            add(scene.get("nodes"));
+            while (!open.empty()) {
+                const Field& node = nodes[open.back()];
+                open.pop_back();
+                add(node.get("children"));
+            }
+        }
+        std::uint64_t hidden = 0;
+        std::vector<bool> is_placed(file_.list("meshes").size());
+        for (std::size_t n = 0; n < nodes.size(); ++n)
+            if (const auto mesh = nodes[n].get("mesh")) {
+                is_placed[file_.index("meshes", *mesh)] = true;
+                if (!is_shown_[n]) ++hidden;
+            }
+        notes_.add("nodes with a mesh that no scene shows are left out", hidden);
+        notes_.add("meshes of no node are left out",
+                   static_cast<std::uint64_t>(std::count(is_placed.begin(), is_placed.end(), false)));
+    }
+
     static Affine place_of(const Field& node) {
         Affine place;
         if (node.has("matrix")) {
+            for (const std::string_view key : {"translation", "rotation", "scale"})
+                if (node.has(key)) node[key].fail(fmt::format("{} beside a matrix", key), "only one of them");
             const auto m = numbers_of<16>(node, "matrix", {});  // By columns.
             if (std::abs(m[3]) + std::abs(m[7]) + std::abs(m[11]) + std::abs(m[15] - 1) > 1e-4)
                 node["matrix"].fail("a last row other than 0 0 0 1", "an affine map");
@@ -117,7 +152,9 @@ private:
 
     // --- meshes ---
     void add_mesh(const Field& node, const Field& mesh, const Affine& place) {
-        const bool is_skinned = node.has("skin");
+        const auto skin = node.get("skin");
+        const bool is_skinned = skin.has_value();
+        if (skin) file_.index("skins", *skin);
         if (is_skinned) notes_.add("skins are not read: skinned meshes stand as they are bound");
         note_extensions(mesh, "meshes", {}, notes_);
         for (const Field& primitive : mesh["primitives"].elements())
@@ -153,7 +190,10 @@ private:
         const std::uint32_t material = material_of(primitive);
         const auto indices = primitive.get("indices");
         const std::uint64_t corners = accessors_.count(indices ? *indices : *positions);
-        if (corners < 3) return;
+        if (corners < 3) {
+            notes_.add("triangles (lists, strips, fans) of fewer than three corners are left out");
+            return;
+        }
         if (mode == list_of_triangles && corners % 3 != 0)
             notes_.add("corners behind the last whole triangle are left out", corners % 3);
         const std::uint64_t triangles = mode == list_of_triangles ? corners / 3 : corners - 2;
@@ -227,9 +267,11 @@ private:
 
     void note_what_is_left() {
         const std::size_t scenes = file_.list("scenes").size();
+        note_what_no_scene_shows();
         notes_.add("scenes other than the default one are not read", scenes > 1 ? scenes - 1 : 0);
         notes_.add("animations are not played", file_.list("animations").size());
         note_extensions(file_.root(), "the file", {}, notes_);
+        note_unknown_keys(file_, notes_);
     }
 
     Notes notes_;
@@ -237,6 +279,7 @@ private:
     GltfAccessors accessors_;
     Mesh mesh_;
     std::optional<std::uint32_t> grey_;
+    std::vector<bool> is_shown_;  // Of each node.
     std::size_t position_accessor_ = none, normal_accessor_ = none;
     std::vector<Vec3> positions_, normals_;
     std::vector<std::pair<std::uint64_t, std::uint32_t>>

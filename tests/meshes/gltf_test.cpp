@@ -383,6 +383,27 @@ TEST(Gltf, WhatIsNotATriangleIsNamed) {
     EXPECT_THAT(refused(parts), HasSubstr("mode: found 7, expected 0 to 6"));
 }
 
+TEST(Gltf, TrianglesWithoutAreaOrOfTooFewCornersAreNamed) {
+    Parts parts;
+    // The first four triangles of the box, then 0 0 1 and 5 2 5 in place of the fifth and the sixth.
+    std::string bytes = box_bytes().substr(0, 96 + 24);
+    for (const int i : {0, 0, 1, 5, 2, 5}) put(bytes, static_cast<std::uint16_t>(i));
+    bytes += box_bytes().substr(bytes.size());
+    const Mesh mesh = read(parts, bytes);
+    EXPECT_EQ(mesh.surface.triangles.size(), 10u);
+    EXPECT_EQ(mesh.degenerate_faces, 2u);
+    EXPECT_EQ(notes(mesh), "triangles without area are left out: 2\n");
+    for (const int mode : {4, 5, 6}) {
+        parts.primitive = fmt::format(
+            R"("attributes": {{"POSITION": 0}}, "indices": 1}}, {{"mode": {}, "attributes": {{"POSITION": 0}}, "indices": 2)",
+            mode);
+        parts.more_accessors = R"(, {"bufferView": 1, "componentType": 5123, "count": 2, "type": "SCALAR"})";
+        expect_box(read(parts));
+        EXPECT_EQ(notes(read(parts)),
+                  "triangles (lists, strips, fans) of fewer than three corners are left out: 1\n");
+    }
+}
+
 // --- nodes ---
 
 TEST(Gltf, NodesPlaceTheMesh) {
@@ -408,6 +429,36 @@ TEST(Gltf, NodesPlaceTheMesh) {
     EXPECT_THAT(refused(parts), HasSubstr("nodes[0].rotation: found a quaternion without a direction"));
     parts.nodes = R"([{"mesh": 0, "rotation": [0, 0, 0, 2]}])";
     expect_box(read(parts), "a quaternion of length 2");
+}
+
+TEST(Gltf, AMatrixStandsAlone) {
+    Parts parts;
+    for (const auto& [key, value] :
+         {std::pair{"translation", "[0, 0, 7]"}, std::pair{"rotation", "[0, 0, 0, 1]"},
+          std::pair{"scale", "[1, 5, 1]"}}) {
+        parts.nodes = fmt::format(
+            R"([{{"mesh": 0, "{}": {}, "matrix": [1,0,0,0, 0,1,0,0, 0,0,1,0, 1,2,3,1]}}])", key, value);
+        EXPECT_EQ(refused(parts), fmt::format("t: line 1, nodes[0].{0}: found {0} beside a matrix, "
+                                              "expected only one of them",
+                                              key));
+    }
+}
+
+TEST(Gltf, NodesThatNoSceneShowsAreNamed) {
+    Parts parts;
+    parts.scenes = R"("scene": 1, "scenes": [{"nodes": [2]}, {"nodes": [0]}], )";
+    // 0: shown; 2 and its child 3: by another scene; 4 and its child 5, and 6: by none, 1 has no mesh.
+    parts.nodes =
+        R"([{"mesh": 0}, {}, {"mesh": 0, "children": [3]}, {"mesh": 0}, {"mesh": 0, "children": [5]},
+            {"mesh": 0, "translation": [5, 0, 0]}, {"mesh": 0}])";
+    expect_box(read(parts));
+    EXPECT_EQ(notes(read(parts)),
+              "nodes with a mesh that no scene shows are left out: 3\n"
+              "scenes other than the default one are not read: 1\n");
+    parts = {};
+    parts.primitive += R"(}]}, {"primitives": [{"attributes": {"POSITION": 0})";
+    expect_box(read(parts));
+    EXPECT_EQ(notes(read(parts)), "meshes of no node are left out: 1\n");
 }
 
 TEST(Gltf, MirroringNodesStillFaceOutwardAndTurnNormals) {
@@ -452,6 +503,11 @@ TEST(Gltf, TheNodeOfASkinnedMeshDoesNotPlaceIt) {
     const Mesh mesh = read(parts);
     expect_box(mesh);
     EXPECT_EQ(notes(mesh), "skins are not read: skinned meshes stand as they are bound: 1\n");
+    parts.nodes = R"([{"mesh": 0, "skin": 7}])";
+    EXPECT_EQ(refused(parts),
+              "t: line 1, nodes[0].skin: found 7, expected a whole number below 1, one of skins");
+    parts.more = "";
+    EXPECT_EQ(refused(parts), "t: line 1, nodes[0].skin: found 7, expected none: the file has no skins");
 }
 
 TEST(Gltf, WithoutScenesAllRootsAreRead) {
@@ -536,6 +592,68 @@ TEST(Gltf, MaterialsAreReadByTheirFactors) {
     parts.primitive = R"("attributes": {"POSITION": 0}, "indices": 1)";
     const Mesh plain = read(parts);
     EXPECT_EQ(plain.materials[plain.triangle_material[0]].name, "default");
+}
+
+TEST(Gltf, FactorsOutsideTheirRangesAreRefused) {
+    const auto with = [](const std::string& material) {
+        Parts parts;
+        parts.material = material;
+        return refused(parts);
+    };
+    const std::string share = ", expected a number from 0 to 1", at = "t: line 1, materials[0].";
+    for (const auto& [key, value] : {std::pair{"metallicFactor", "5"}, std::pair{"roughnessFactor", "-3"}})
+        EXPECT_EQ(with(fmt::format(R"("pbrMetallicRoughness": {{"{}": {}}})", key, value)),
+                  fmt::format("{}pbrMetallicRoughness.{}: found {}{}", at, key, value, share));
+    EXPECT_EQ(with(R"("pbrMetallicRoughness": {"baseColorFactor": [0.25, 2, 0, 1]})"),
+              at + "pbrMetallicRoughness.baseColorFactor[1]: found 2" + share);
+    EXPECT_EQ(with(R"("pbrMetallicRoughness": {"baseColorFactor": [0.25, 0, -1, 1]})"),
+              at + "pbrMetallicRoughness.baseColorFactor[2]: found -1" + share);
+    EXPECT_EQ(with(R"("emissiveFactor": [0.5, 1, 1.5])"), at + "emissiveFactor[2]: found 1.5" + share);
+    EXPECT_EQ(with(R"("extensions": {"KHR_materials_transmission": {"transmissionFactor": 1.25}})"),
+              at + "extensions.KHR_materials_transmission.transmissionFactor: found 1.25" + share);
+    EXPECT_EQ(
+        with(R"("extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": -8}})"),
+        at + "extensions.KHR_materials_emissive_strength.emissiveStrength: found -8, expected a number of "
+             "0 or more");
+    EXPECT_EQ(with(R"("extensions": {"KHR_materials_ior": {"ior": -1.5}})"),
+              at + "extensions.KHR_materials_ior.ior: found -1.5, expected a number of 0 or more");
+    EXPECT_EQ(with(R"("alphaMode": "blend")"),
+              at + "alphaMode: found \"blend\", expected \"OPAQUE\", \"MASK\" or \"BLEND\"");
+    EXPECT_EQ(with(R"("alphaMode": "OPAQUE", "pbrMetallicRoughness": {"baseColorFactor": [0, 1, 0.5, 1]})"),
+              "");
+}
+
+TEST(Gltf, UnknownKeysAreNamedALineAKind) {
+    Parts parts;
+    parts.asset = R"({"version": "2.0", "generator": "by hand", "extras": {"any": 1}, "autor": "me"})";
+    parts.scenes = R"("scene": 0, "scenes": [{"nodes": [0, 1], "name": "s", "node": 7}], )";
+    parts.nodes = R"([{"mesh": 0, "rotaton": [0, 0, 0, 1], "name": "n"}, {"rotaton": 1, "meshs": 0}])";
+    parts.primitive = R"("attributes": {"POSITION": 0}, "indices": 1, "material": 0, "indizes": 3)";
+    parts.material =
+        R"("alphamode": "BLEND", "doubleSided": true, "pbrMetallicRoughness": {"metalicFactor": 1},
+        "extensions": {"KHR_materials_ior": {"iro": 2}})";
+    parts.buffers = R"([{"byteLength": 168, "uri": "t.bin", "size": 168}])";
+    parts.views = R"([{"buffer": 0, "byteLength": 96, "bytestride": 12},
+        {"buffer": 0, "byteOffset": 96, "byteLength": 72, "extensions": {"EXT_meshopt_compression": {}}}])";
+    parts.positions += R"(, "min": [0, 0, 0], "max": [2, 3, 4], "normalised": true)";
+    parts.more = R"(, "light": [], "extras": 1, "samplers": [])";
+    const Mesh mesh = read(parts);
+    expect_box(mesh);
+    EXPECT_EQ(
+        notes(mesh),
+        "the key \"light\" of the file is not known: 1\nthe key \"autor\" of the asset is not known: 1\n"
+        "the key \"node\" of scenes is not known: 1\nthe key \"rotaton\" of nodes is not known: 2\n"
+        "the key \"meshs\" of nodes is not known: 1\nthe key \"indizes\" of primitives is not known: 1\n"
+        "the key \"alphamode\" of materials is not known: 1\n"
+        "the key \"metalicFactor\" of pbrMetallicRoughness is not known: 1\n"
+        "the key \"iro\" of KHR_materials_ior is not known: 1\n"
+        "the key \"normalised\" of accessors is not known: 1\n"
+        "the key \"bytestride\" of bufferViews is not known: 1\n"
+        "the extension \"EXT_meshopt_compression\" of bufferViews is not read: 1\n"
+        "the key \"size\" of buffers is not known: 1\n");
+    parts = {};
+    parts.nodes = R"([{"mesh": 0}, 7])";
+    EXPECT_EQ(refused(parts), "t: line 1, nodes[1]: found 7, expected an object");
 }
 
 TEST(Gltf, EveryCutOfItsTextIsRefused) {
