@@ -118,8 +118,6 @@ Model read_model(const Zip& zip, const std::string& name) {
     if (unread > 0)
         model.notes.push_back(
             fmt::format("textures that are neither .jpg, .png nor .tga are not read: {}", unread));
-    if (mesh.degenerate_faces > 0)
-        model.notes.push_back(fmt::format("faces without an area: {}", mesh.degenerate_faces));
     for (std::uint32_t tag = 0; tag < materials + 2; ++tag) {
         Surface surface = triangles_with(mesh.surface, tags, tag);
         if (surface.triangles.empty()) continue;

@@ -34,6 +34,7 @@ FaceTriangles triangles_of(const Faces& faces, std::span<const Vec3> vertices, c
             result.face.push_back(static_cast<std::uint32_t>(f));
         }
     }
+    notes.add("faces of fewer than three corners are left out", result.too_few_corners);
     return result;
 }
 

@@ -25,8 +25,9 @@ struct FaceTriangles {
     std::uint64_t too_few_corners = 0;  ///< Faces of fewer than three: left out.
 };
 
-/// Notes faces that cross themselves. `refuse(face, found, expected)` throws; it is told of a face that is
-/// too large to be filled (meshes/polygon.h) and of the first that exceeds most_triangles.
+/// Notes faces of fewer than three corners, and those that cross themselves. `refuse(face, found, expected)`
+/// throws; it is told of a face that is too large to be filled (meshes/polygon.h) and of the first that
+/// exceeds most_triangles.
 using RefuseFace =
     std::function<void(std::size_t face, const std::string& found, const std::string& expected)>;
 FaceTriangles triangles_of(const Faces& faces, std::span<const Vec3> vertices, const RefuseFace& refuse,

@@ -35,21 +35,19 @@ std::string content_of(const std::filesystem::path& file) {
     return trace::read_file(file);
 }
 
-// Keeps the groups beside the triangles.
-void drop_triangles_without_area(Mesh& mesh) {
-    if (mesh.triangle_group.empty()) {
-        mesh.degenerate_faces += drop_degenerate(mesh.surface, &mesh.triangle_material);
-        return;
-    }
+// How many they are. Keeps the groups beside the triangles.
+std::uint64_t drop_triangles_without_area(Mesh& mesh) {
+    if (mesh.triangle_group.empty()) return drop_degenerate(mesh.surface, &mesh.triangle_material);
     std::vector<std::uint32_t> kept(mesh.surface.triangles.size());
     for (std::uint32_t t = 0; t < kept.size(); ++t) kept[t] = t;
-    mesh.degenerate_faces += drop_degenerate(mesh.surface, &kept);
+    const std::uint64_t dropped = drop_degenerate(mesh.surface, &kept);
     for (std::size_t t = 0; t < kept.size(); ++t) {
         mesh.triangle_material[t] = mesh.triangle_material[kept[t]];
         mesh.triangle_group[t] = mesh.triangle_group[kept[t]];
     }
     mesh.triangle_material.resize(kept.size());
     mesh.triangle_group.resize(kept.size());
+    return dropped;
 }
 
 }  // namespace
@@ -58,7 +56,10 @@ Mesh parse_mesh(Format format, const Source& source) {
     Mesh mesh = format == Format::obj   ? read_obj(source)
                 : format == Format::ply ? read_ply(source)
                                         : read_gltf(source);
-    drop_triangles_without_area(mesh);
+    if (const std::uint64_t dropped = drop_triangles_without_area(mesh); dropped > 0) {
+        mesh.degenerate_faces += dropped;
+        mesh.notes.push_back(fmt::format("triangles without area are left out: {}", dropped));
+    }
     drop_unused_vertices(mesh.surface);
     if (mesh.surface.triangles.empty())
         throw DataError(

@@ -20,8 +20,8 @@ struct Mesh {
         materials;  ///< The file's own, by its names; faces without one have "default", a grey of 0.5.
     std::vector<std::uint32_t> triangle_group;  ///< Of an OBJ: index into groups; else empty.
     std::vector<std::string> groups;            ///< The names after g or o; "" before the first.
-    std::uint64_t degenerate_faces = 0;  ///< Without area (in float coordinates) or with fewer than three
-                                         ///< corners: left out.
+    std::uint64_t degenerate_faces = 0;  ///< Faces with fewer than three corners and triangles without area
+                                         ///< (in float coordinates): left out, and noted.
     std::vector<std::string> missing_libraries;  ///< Material libraries (.mtl) that an OBJ names and that are
                                                  ///< not there.
     std::vector<std::string> notes;              ///< What is in the file and not taken over, a line a kind.

@@ -22,6 +22,13 @@ bool is_map(std::string_view keyword) {
            keyword == "refl" || keyword == "norm";
 }
 
+// Terms that numbers alone follow.
+bool is_number_term(std::string_view keyword) {
+    constexpr std::array<std::string_view, 10> terms{"ka", "kd", "ks", "ke", "tf",
+                                                     "ns", "ni", "d",  "tr", "illum"};
+    return std::find(terms.begin(), terms.end(), keyword) != terms.end();
+}
+
 // The file's name of a map: what follows its options.
 std::string_view map_file(TextLines& line) {
     // Options with one word as a value; the values of the others are numbers, up to three.
@@ -56,6 +63,9 @@ public:
                 line_.fail(in_quotes(line_.keyword()) + " before the first newmtl", "newmtl");
             } else {
                 read_term(line_.keyword());
+                if (!line_.rest().empty() && is_number_term(line_.keyword()))
+                    notes_.add(fmt::format("words behind the numbers of the material term {} are not read",
+                                           in_quotes(line_.keyword())));
             }
         }
         finish();
@@ -114,7 +124,11 @@ private:
             transparency_ = number();
         } else if (is_map(keyword)) {
             read_map(keyword);
-        } else if (keyword != "ka") {
+        } else if (keyword == "ka") {
+            Vec3 ambient;
+            read_colour(ambient);
+            if (ambient != Vec3{}) notes_.add("ambient colours (Ka) are not read");
+        } else {
             notes_.add(fmt::format("the material term {} is not read", in_quotes(keyword)));
         }
     }
@@ -139,6 +153,8 @@ private:
     void read_colour(Vec3& colour) {
         if (line_.rest().starts_with("spectral") || line_.rest().starts_with("xyz")) {
             notes_.add(not_read_as_spectra);
+            while (!line_.word().empty()) {
+            }
             return;
         }
         colour.x = number();

@@ -64,10 +64,12 @@ private:
             const Vec3 n = triple("a normal");
             const Vec3 unit = trace::normalize(n);
             normals_.push_back(trace::is_finite(unit) ? unit : Vec3{});
+            if (!line_.rest().empty())
+                notes_.add("words behind the three numbers of a normal (vn) are not read");
         } else if (keyword == "vt") {
             ++counts_[texture];
         } else if (keyword == "usemtl") {
-            material_ = entry_of(material_names_, used_materials_, unquoted(line_.rest()));
+            use_material(unquoted(line_.rest()));
         } else if (keyword == "mtllib") {
             read_library_names();
         } else if (keyword == "g" || keyword == "o") {
@@ -97,7 +99,13 @@ private:
                                                                             : name;
     }
 
+    void use_material(std::string_view name) {
+        material_ = name.empty() ? none : entry_of(material_names_, used_materials_, name);
+        if (name.empty()) notes_.add("usemtl without a name: the faces behind it have \"default\", a grey");
+    }
+
     void read_library_names() {
+        if (line_.rest().empty()) notes_.add("mtllib without a name is passed over");
         for (std::string& name : library_names(line_.rest(), source_))
             if (std::find(libraries_.begin(), libraries_.end(), name) == libraries_.end())
                 libraries_.push_back(std::move(name));

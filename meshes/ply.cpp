@@ -246,9 +246,14 @@ private:
         const std::uint64_t values = length(element, row, property);
         std::array<std::uint32_t, 2> before{};
         std::uint64_t in_strip = 0;
+        const auto note_short = [&] {
+            if (in_strip == 1 || in_strip == 2 || values == 0)
+                notes_.add("triangle strips of fewer than three corners are left out");
+        };
         for (std::uint64_t v = 0; v < values; ++v) {
             const std::uint32_t vertex = index(element, row, property, true);
             if (vertex == restart) {
+                note_short();
                 in_strip = 0;
                 continue;
             }
@@ -260,6 +265,7 @@ private:
             before = {before[1], vertex};
             ++in_strip;
         }
+        note_short();
     }
 
     void note_what_is_left() {

@@ -99,11 +99,12 @@ TEST_F(MeshFile, MissingForeignAndEmptyFilesAreRefused) {
                 HasSubstr("no triangle with an area"));
 }
 
-TEST_F(MeshFile, FacesWithoutAreaAreDroppedAndCounted) {
+TEST_F(MeshFile, FacesWithoutAreaAreDroppedCountedAndNamed) {
     const Mesh mesh =
         read_mesh(write("d.obj", triangle_obj + "v 4 0 0\ng a\n" + "f 1 2 4\ng b\n" + face + "f 1 1 2\n"));
     EXPECT_EQ(mesh.surface.triangles.size(), 1u);
     EXPECT_EQ(mesh.degenerate_faces, 2u);
+    EXPECT_EQ(notes(mesh), "triangles without area are left out: 2\n");
     EXPECT_EQ(mesh.groups[mesh.triangle_group[0]], "b");
     EXPECT_EQ(mesh.surface.vertices.size(), 3u);
 }

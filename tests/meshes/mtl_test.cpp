@@ -36,7 +36,7 @@ std::string refused(const std::string& text) {
 TEST(Mtl, TermsAreReadInLettersOfAnyCaseAndLinesOfAnyForm) {
     for (const std::string end : {"\n", "\r\n", "\r", "\n\t  "}) {
         std::string text =
-            "newmtl paint\nKa 1 1 1\nKd 0.1 0.2 0.3\nks 0.4 0.5 0.6\nNS 70\nNi 1.5\nd 0.75\nillum 3\nnewmtl "
+            "newmtl paint\nKa 0 0 0\nKd 0.1 0.2 0.3\nks 0.4 0.5 0.6\nNS 70\nNi 1.5\nd 0.75\nillum 3\nnewmtl "
             "other\n";
         for (std::size_t at = text.find('\n'); at != text.npos; at = text.find('\n', at + end.size()))
             text.replace(at, 1, end);
@@ -106,6 +106,24 @@ TEST(Mtl, WhatIsNotUnderstoodIsNamed) {
                                            "the material term \"pr\" is not read: 2",
                                            "colours of transmitted light (Tf) are not read: 1",
                                            "the material term \"hello\" is not read: 1"));
+}
+
+TEST(Mtl, SurplusWordsAndAmbientColoursAreNamed) {
+    const Library library = read(
+        "newmtl a\nKa 0 0.25 0\nKd 1 0 0 7\nKs 0.5 0.25 0.125 0.5 # four\nNs 10 20\nillum 2 x\nnewmtl b\n"
+        "Ka 0.5\nNs 30 40\nd -halo 0.75 1\nKd 0.5 # one\nPr 1 2 3\n");
+    EXPECT_EQ(library.terms().kd, (Vec3{1, 0, 0}));
+    EXPECT_EQ(library.terms().ks, (Vec3{0.5f, 0.25f, 0.125f}));
+    EXPECT_EQ(library.terms().ns, 10);
+    EXPECT_THAT(library.notes,
+                ElementsAre("ambient colours (Ka) are not read: 2",
+                            "words behind the numbers of the material term \"kd\" are not read: 1",
+                            "words behind the numbers of the material term \"ks\" are not read: 1",
+                            "words behind the numbers of the material term \"ns\" are not read: 2",
+                            "words behind the numbers of the material term \"illum\" are not read: 1",
+                            "opacities that depend on the view (d -halo) are read as even ones: 1",
+                            "words behind the numbers of the material term \"d\" are not read: 1",
+                            "the material term \"pr\" is not read: 1"));
 }
 
 TEST(Mtl, DamageIsRefusedWithItsLine) {

@@ -123,14 +123,16 @@ TEST(Obj, WhatIsNotATriangleIsNamed) {
     const Mesh mesh = obj(
         box() +
         "p 1 2\nl 1 2 3\nl 4 5\ncstype bezier\ndeg 3\ncurv 0 1 1 2 3 4\nend\nlod 2\nshadow_obj s.obj\nlod 3\n"
-        "f 1 2\nf\nf 1 1 2\n");
+        "f 1 2\nf\nf 1 1 2\nf 3\n");
     expect_box(mesh);
-    EXPECT_EQ(mesh.degenerate_faces, 3u);
+    EXPECT_EQ(mesh.degenerate_faces, 4u);
     EXPECT_EQ(notes(mesh),
               "points (p) are not read: 1\nlines (l) are not read: 2\n"
               "lines of free-form curves and surfaces (curv, surf and the like) are not read: 4\n"
               "lines that open with \"lod\" are not read: 2\n"
-              "lines that open with \"shadow_obj\" are not read: 1\n");
+              "lines that open with \"shadow_obj\" are not read: 1\n"
+              "faces of fewer than three corners are left out: 3\n"
+              "triangles without area are left out: 1\n");
 }
 
 TEST(Obj, SmoothingGroupsAreNamedWhereTheyWouldCount) {
@@ -146,6 +148,17 @@ TEST(Obj, GroupsAreThoseOfTheLastLine) {
     EXPECT_EQ(mesh.groups[mesh.triangle_group[0]], "");
     EXPECT_EQ(mesh.groups[mesh.triangle_group[2]], "lid of it");
     EXPECT_EQ(mesh.groups[mesh.triangle_group[4]], "side");
+}
+
+TEST(Obj, SurplusNumbersAreNamedOrRefused) {
+    const Mesh mesh = obj("vn 0 3 4 5\nvn 0 0 1\n" + box("{0}//1"));
+    expect_box(mesh);
+    EXPECT_EQ(mesh.surface.normals[0], (Vec3{0, 0.6f, 0.8f}));
+    EXPECT_EQ(notes(mesh), "words behind the three numbers of a normal (vn) are not read: 1\n");
+    for (const std::string numbers : {"5 6", "5 6 7 1 2", "5 6 7 1 2 3 4 8"})
+        EXPECT_THAT(refused(Format::obj, "v " + numbers + "\n" + box()),
+                    HasSubstr("t: line 1: found a vertex"))
+            << numbers;
 }
 
 // --- materials ---
@@ -187,6 +200,19 @@ TEST(ObjLibraries, SeveralInALineAndNamesWithBlanksAndQuotes) {
 TEST(ObjLibraries, NamesOfMaterialsMayHoldBlanksAndSharps) {
     expect_red_and_blue(obj("mtllib m.mtl\n" + replaced(two_faces, "usemtl red", "usemtl dark red #2"),
                             {{"m.mtl", "newmtl  dark red #2 \nKd 0.8 0.1 0.1\n" + blue_mtl}}));
+}
+
+TEST(ObjLibraries, LinesWithoutANameAreNamedAndGrey) {
+    const Mesh mesh =
+        obj("mtllib\nmtllib r.mtl b.mtl\n" + two_faces + "usemtl\nf 1 2 4\nusemtl \"\"\nf 2 3 4\n",
+            {{"r.mtl", red_mtl}, {"b.mtl", blue_mtl}});
+    ASSERT_EQ(mesh.surface.triangles.size(), 4u);
+    EXPECT_EQ(kd(mesh, 1), blue);
+    for (const std::size_t triangle : {2u, 3u})
+        EXPECT_EQ(mesh.materials[mesh.triangle_material[triangle]].name, "default");
+    EXPECT_EQ(notes(mesh),
+              "mtllib without a name is passed over: 1\n"
+              "usemtl without a name: the faces behind it have \"default\", a grey: 2\n");
 }
 
 TEST(ObjLibraries, AMissingOneIsNamedAndItsMaterialsAreGrey) {

@@ -207,6 +207,18 @@ TEST(Ply, FacesOfFewerThanThreeCornersAreLeftOutAndCounted) {
                                                 corner_rows() + "0\n1 4\n" + face_rows() + "2 0 1\n"));
     expect_box(mesh);
     EXPECT_EQ(mesh.degenerate_faces, 3u);
+    EXPECT_EQ(notes(mesh), "faces of fewer than three corners are left out: 3\n");
+}
+
+TEST(Ply, FacesWithoutAreaAreNamedApartFromThoseOfFewCorners) {
+    const Mesh mesh =
+        parsed(Format::ply, ascii(vertex_lines + replaced(face_lines, "face 6", "face 10"),
+                                  corner_rows() + "3 1 1 4\n3 0 2 0\n0\n" + face_rows() + "3 7 7 7\n"));
+    expect_box(mesh);
+    EXPECT_EQ(mesh.degenerate_faces, 4u);
+    EXPECT_EQ(notes(mesh),
+              "faces of fewer than three corners are left out: 1\n"
+              "triangles without area are left out: 3\n");
 }
 
 TEST(Ply, TriangleStripsTurnEverySecondTriangleAndMinusOneBeginsAnew) {
@@ -222,6 +234,13 @@ TEST(Ply, TriangleStripsTurnEverySecondTriangleAndMinusOneBeginsAnew) {
         const Vec3 p = mesh.surface.vertices[a];
         EXPECT_GT(cross(mesh.surface.vertices[b] - p, mesh.surface.vertices[c] - p).z, 0);
     }
+    EXPECT_EQ(notes(mesh), "");
+    const Mesh with_short_ones =
+        parsed(Format::ply,
+               ascii(replaced(declared, "tristrips 1", "tristrips 3"),
+                     "0 0 0\n1 0 0\n0 2 0\n1 2 0\n0 4 0\n1 4 0\n0\n10 0 1 -1 -1 3 -1 0 1 2 3\n2 4 5\n"));
+    EXPECT_DOUBLE_EQ(area(with_short_ones), 2);
+    EXPECT_EQ(notes(with_short_ones), "triangle strips of fewer than three corners are left out: 4\n");
 }
 
 TEST(Ply, WhatFollowsTheLastElementIsNamed) {
