@@ -47,7 +47,8 @@ std::vector<std::string> LeftOut::lines() const {
         std::size_t number = 0;
         for (const auto& [name, count] : names) {
             if (number == most_names) break;
-            line += fmt::format("{} {} {}", number++ == 0 ? "" : ",", name, count);
+            line += fmt::format("{} {} {}", number++ == 0 ? "" : ",", name,
+                                count == 1 ? "(once)" : fmt::format("({} times)", count));
         }
         if (names.size() > most_names) line += fmt::format(", and {} names more", names.size() - most_names);
         lines.push_back(std::move(line));

@@ -17,8 +17,8 @@ public:
     /// A note of a reader of models, "WHAT: COUNT" or "WHAT": those of all models are told together.
     void add_note_of_model(std::string_view note);
 
-    /// "left out of wall: <baseboard> 54, pattern 38": kinds and names sorted; of each line the first 24
-    /// names, cut to 40 bytes, with control characters and what is no UTF-8 escaped.
+    /// "left out of wall: <baseboard> (54 times), glow (once)": kinds and names sorted; of each line the
+    /// first 60 names, cut to 40 bytes, with control characters and what is no UTF-8 escaped.
     std::vector<std::string> lines() const;
 
 private:

@@ -95,10 +95,24 @@ XmlDocument::XmlDocument(std::span<const std::uint8_t> bytes, const std::string&
     if (items > most_xml_items)
         throw DataError(fmt::format("{}: found {} elements and attributes, expected at most {}", file, items,
                                     most_xml_items));
-    const pugi::xml_parse_result result =
-        document_.load_buffer(bytes.data(), bytes.size(), pugi::parse_default, pugi::encoding_utf8);
-    if (!result) refuse(result.offset, damage_of(result.status), fmt::format("a <{}> in XML", root));
+    const pugi::xml_parse_result result = document_.load_buffer(
+        bytes.data(), bytes.size(), pugi::parse_default | pugi::parse_fragment, pugi::encoding_utf8);
+    const std::string expected = fmt::format("a <{}> in XML", root);
+    if (!result) refuse(result.offset, damage_of(result.status), expected);
     const pugi::xml_node element = document_.document_element();
+    // A text begins with the blanks before it.
+    const auto first_of = [&](pugi::xml_node node) {
+        const auto offset = static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0));
+        return static_cast<std::ptrdiff_t>(std::min(text.find_first_not_of(" \t\r\n", offset), text.size()));
+    };
+    for (const pugi::xml_node node : document_)
+        if (node != element)
+            refuse(first_of(node),
+                   node.type() == pugi::node_element
+                       ? fmt::format("the element {} beside another one", in_quotes(node.name()))
+                       : std::string(damage_of(pugi::status_bad_pcdata)),
+                   expected + ", and nothing beside it");
+    if (!element) refuse(0, damage_of(pugi::status_no_document_element), expected);
     if (std::string_view(element.name()) != root)
         refuse(element.offset_debug(), fmt::format("the element {}", in_quotes(element.name())),
                fmt::format("<{}>", root));

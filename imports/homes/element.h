@@ -23,7 +23,8 @@ class Element;
 class XmlDocument {
 public:
     /// UTF-8. DataError "FILE: line N: ..." for damaged XML, another encoding, an attribute that stands twice
-    /// in an element, or a root that has another name. Keeps `bytes` and `file`: they must live as long.
+    /// in an element, a root that has another name, or text or a further element beside it. Keeps `bytes` and
+    /// `file`: they must live as long.
     XmlDocument(std::span<const std::uint8_t> bytes, const std::string& file, const char* root);
     XmlDocument(const XmlDocument&) = delete;
     XmlDocument& operator=(const XmlDocument&) = delete;

@@ -116,6 +116,8 @@ public:
 
 private:
     bool enters(pugi::xml_node node, pugi::xml_node root) {
+        if (node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata)
+            left_out_.add(fmt::format("of {}", node.parent().name()), "text between elements");
         if (node.type() != pugi::node_element) return false;
         check_attributes(node);
         if (node != root &&

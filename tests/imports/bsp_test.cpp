@@ -87,8 +87,9 @@ TEST(Bsp, LumpsThatAreNotReadAreCounted) {
     auto map = hand_made_map();
     map.put(BspText::effects, std::array<char, 72>{}).put(BspText::leaf_faces, 0, 1, 2);
     map.put(BspText::light_maps, std::array<std::array<char, 128>, 3 * 128>{});
-    EXPECT_THAT(read_bsp(map.bytes(), "m.bsp").left_out.lines(),
-                ::testing::ElementsAre("left out of the map: fogs 1, leaf faces 3, light maps 1"));
+    EXPECT_THAT(
+        read_bsp(map.bytes(), "m.bsp").left_out.lines(),
+        ::testing::ElementsAre("left out of the map: fogs (once), leaf faces (3 times), light maps (once)"));
 }
 
 TEST(Bsp, TextOfEntitiesIsBounded) {
@@ -110,10 +111,11 @@ TEST(EntityKeys, ClassesAndKeysThatAreNotUsedAreCounted) {
                    left_out);
     EXPECT_THAT(left_out.lines(),
                 ::testing::ElementsAre(
-                    "left out of entities: target_speaker 2, without a classname 1",
-                    "left out of entity info_player_deathmatch: nobots 1", "left out of entity items: team 2",
-                    "left out of entity light: target 2", "left out of entity worldspawn: ambient 1, music 1",
-                    "left out of moving parts: speed 1"));
+                    "left out of entities: target_speaker (2 times), without a classname (once)",
+                    "left out of entity info_player_deathmatch: nobots (once)",
+                    "left out of entity items: team (2 times)", "left out of entity light: target (2 times)",
+                    "left out of entity worldspawn: ambient (once), music (once)",
+                    "left out of moving parts: speed (once)"));
 }
 
 TEST(Bsp, IndicesThatLeadNowhereAreRefused) {

@@ -250,17 +250,18 @@ TEST_F(HomeLeftOut, WhatIsNotUsedIsSaidInOneLineAKind) {
         "skyColor='FF000000' photoWidth='3'/>"
         "<camera attribute='topCamera' lens='SPHERICAL' x='1' y='2' z='3' yaw='0' pitch='1' "
         "fieldOfView='1'/><property name='plugin' value='v'/>";
-    EXPECT_EQ(
-        notes(text.text()),
-        "left out as not seen: <property> 1, <sash> 1, icon 1, id 1, name 1, pattern 1, photoWidth 1\n"
-        "left out of camera: lens (taken as PINHOLE) 1\n"
-        "left out of doorOrWindow: cutOutShape (its rectangle is cut) 1\n"
-        "left out of environment: skyColor 1\n"
-        "left out of furnitureGroup: <tesseract> 1\n"
-        "left out of home: <camera attribute='topCamera'> 1, <dimensionLine> 2, <label> 1, <polyline> 1\n"
-        "left out of light: <lightSourceMaterial> 1, modelFlags 1\n"
-        "left out of pieceOfFurniture: staircaseCutOutShape 1\n"
-        "left out of wall: <baseboard> 2, <texture> 1, glow 1\n");
+    EXPECT_EQ(notes(text.text()),
+              "left out as not seen: <property> (once), <sash> (once), icon (once), id (once), name (once), "
+              "pattern (once), photoWidth (once)\n"
+              "left out of camera: lens (taken as PINHOLE) (once)\n"
+              "left out of doorOrWindow: cutOutShape (its rectangle is cut) (once)\n"
+              "left out of environment: skyColor (once)\n"
+              "left out of furnitureGroup: <tesseract> (once)\n"
+              "left out of home: <camera attribute='topCamera'> (once), <dimensionLine> (2 times), <label> "
+              "(once), <polyline> (once)\n"
+              "left out of light: <lightSourceMaterial> (once), modelFlags (once)\n"
+              "left out of pieceOfFurniture: staircaseCutOutShape (once)\n"
+              "left out of wall: <baseboard> (2 times), <texture> (once), glow (once)\n");
 }
 
 TEST_F(HomeLeftOut, AHomeOfWhichAllIsUsedLeavesNothingToSay) {
@@ -275,20 +276,49 @@ TEST_F(HomeLeftOut, LevelsThatTheViewHidesAndRoomsThatCrossThemselvesAreTold) {
         "<room><point x='0' y='0'/><point x='100' y='100'/><point x='100' y='0'/><point x='0' "
         "y='90'/></room>";
     const std::string all = notes(text.text());
-    EXPECT_THAT(all,
-                HasSubstr("left out of level: floorThickness 1, visible='false' (taken all the same) 1\n"));
-    EXPECT_THAT(all, HasSubstr("left out of room: parts of one that crosses itself 1\n"));
+    EXPECT_THAT(
+        all,
+        HasSubstr("left out of level: floorThickness (once), visible='false' (taken all the same) (once)\n"));
+    EXPECT_THAT(all, HasSubstr("left out of room: parts of one that crosses itself (once)\n"));
+}
+
+TEST_F(HomeLeftOut, TextBetweenElementsIsTold) {
+    HomeText text;
+    text.walls =
+        "stray<wall id='w' xStart='0' yStart='0' xEnd='400' yEnd='0' thickness='10'>1<!-- 2 --></wall>"
+        "<![CDATA[more]]> \n <label x='1'><text>t</text>u</label>";
+    EXPECT_EQ(notes(text.text()),
+              "left out of home: <label> (once), text between elements (2 times)\n"
+              "left out of wall: text between elements (once)\n");
 }
 
 TEST_F(HomeLeftOut, NamesOfTheFileAreCutAndEscaped) {
     HomeText text;
     text.rest = "<evil\xc2\x9b" + std::string(1000, 'x') + "/>";
     EXPECT_THAT(notes(text.text()), HasSubstr("left out of home: <evil\\u{9b}xxxx"));
-    EXPECT_THAT(notes(text.text()), HasSubstr("xxx... 1\n"));
+    EXPECT_THAT(notes(text.text()), HasSubstr("xxx... (once)\n"));
     EXPECT_LT(notes(text.text()).size(), 100u);
 }
 
 class HomeRefusals : public Sweethome {};
+
+TEST_F(HomeRefusals, WhatStandsBesideTheHomeIsRefused) {
+    const std::string home = HomeText{}.text(), at = "t.sh3d: Home.xml: line ",
+                      expected = ", expected a <home> in XML, and nothing beside it";
+    const auto refused = [&](const std::string& xml) {
+        try {
+            import(xml);
+        } catch (const trace::DataError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_THAT(refused(home + "\n\nstray"), HasSubstr(at + "3: found text outside any element" + expected));
+    EXPECT_THAT(refused(home + "\n<home name='i'/>"),
+                HasSubstr(at + "2: found the element \"home\" beside another one" + expected));
+    EXPECT_THAT(refused("<!-- none -->"), HasSubstr(at + "1: found no element, expected a <home> in XML"));
+    EXPECT_EQ(refused("<!-- one -->" + home.substr(home.find("<home")) + "\n<!-- two -->\n"), "");
+}
 
 TEST_F(HomeRefusals, TheLineIsNamed) {
     HomeText text;
