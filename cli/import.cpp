@@ -34,6 +34,15 @@ const Importer& importer_of(const std::string& word) {
         throw UsageError(
             fmt::format("KIND: found the file {}, expected a kind before it: regather import {} {} -o DIR",
                         trace::in_quotes(word), kind, trace::shown(word, 200)));
+    if (std::filesystem::path(word).has_extension()) {
+        std::string kinds;
+        for (const Importer& importer : imports::catalogue())
+            kinds += fmt::format("{}{} ({})", kinds.empty() ? "" : ", ", importer.kind,
+                                 fmt::join(importer.endings, ", "));
+        throw UsageError(
+            fmt::format("KIND: found the file {}, which no kind reads, expected a kind and a file: {}",
+                        trace::in_quotes(word), kinds));
+    }
     throw UsageError(fmt::format("KIND: found '{}', expected {} (known: {})", word,
                                  trace::alternatives(trace::nearest_words(word, names)),
                                  trace::listed(names)));

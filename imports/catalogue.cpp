@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "imports/furniture/demonstration.h"
 #include "imports/homes/sweethome3d.h"
 #include "imports/maps/openarena.h"
@@ -44,30 +46,36 @@ std::span<const Importer> catalogue() {
         {"sweethome3d",
          "a home of Sweet Home 3D: .sh3d file, or sweethome3d.jar with --home NAME",
          {"home"},
+         {".sh3d", ".jar"},
          import_home},
         {"furniture",
          "glassware and chess on a table, from the catalogues of sweethome3d-furniture (folder or .sh3f "
          "files)",
          {},
+         {".sh3f"},
          import_glassware},
         {"mesh",
          "an OBJ, PLY or glTF file, on a floor under a light; --up x|y|z, --size METRES",
          {"up", "size"},
+         {meshes::endings.begin(), meshes::endings.end()},
          import_one_mesh},
         {"openarena",
          "a map of OpenArena or Quake III Arena: its .pk3 archives, with --map NAME",
          {"map"},
+         {".pk3"},
          import_map},
     };
     return importers;
 }
 
 std::string_view kind_of_file(const std::filesystem::path& file) {
-    if (meshes::format_of(file)) return "mesh";
-    const std::string extension = file.extension().string();
-    if (extension == ".sh3d" || extension == ".jar") return "sweethome3d";
-    if (extension == ".sh3f") return "furniture";
-    return extension == ".pk3" ? "openarena" : "";
+    std::string ending = file.extension().string();
+    for (char& c : ending)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    for (const Importer& importer : catalogue())
+        if (std::find(importer.endings.begin(), importer.endings.end(), ending) != importer.endings.end())
+            return importer.kind;
+    return "";
 }
 
 std::string summary_of(const ImportedScene& scene) {

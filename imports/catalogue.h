@@ -20,7 +20,8 @@ struct Request {
 
 struct Importer {
     std::string_view kind, summary;
-    std::vector<std::string_view> takes;  ///< "home", "map", "up", "size": of a Request.
+    std::vector<std::string_view> takes;    ///< "home", "map", "up", "size": of a Request.
+    std::vector<std::string_view> endings;  ///< Of the names of its files: ".pk3".
     ImportedScene (*import)(const Request&);
 };
 
@@ -28,7 +29,7 @@ struct Importer {
 /// trace::UsageError for several files where one is due.
 std::span<const Importer> catalogue();
 
-/// Which kind reads files of such a name; "" for none.
+/// Which kind reads files of such a name, its ending in letters of any case; "" for none.
 std::string_view kind_of_file(const std::filesystem::path& file);
 
 /// For people: name, counts, origin, licence, three lines.

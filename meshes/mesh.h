@@ -1,5 +1,6 @@
 // meshes/mesh.h -- triangles and materials from OBJ, PLY, glTF and GLB files, each read once, by one reader.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -51,7 +52,10 @@ struct Source {
 /// triangle with an area. Memory and time are in proportion to the bytes.
 Mesh parse_mesh(Format format, const Source& source);
 
-/// The format that the name's extension says, in letters of any case: .obj, .ply, .gltf, .glb.
+/// Of the names of files that read_mesh() reads.
+inline constexpr std::array<std::string_view, 4> endings{".obj", ".ply", ".gltf", ".glb"};
+
+/// The format that the name's extension says, in letters of any case.
 std::optional<Format> format_of(const std::filesystem::path& file);
 
 /// A file of at most 2^30 bytes, with those that it names. Throws trace::DataError, as parse_mesh.

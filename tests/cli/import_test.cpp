@@ -81,6 +81,15 @@ TEST(Import, AFileWithoutAKindIsAnsweredWithWhatToType) {
     EXPECT_THAT(regather({"import", "a.sh3d", "-o", "y"}).err,
                 HasSubstr("regather import sweethome3d a.sh3d -o DIR"));
     EXPECT_THAT(regather({"import", "a.pk3"}).err, HasSubstr("regather import openarena a.pk3 -o DIR"));
+    EXPECT_THAT(regather({"import", "a.SH3D"}).err, HasSubstr("regather import sweethome3d a.SH3D -o DIR"));
+    for (const std::string file_of_none : {"x.stl", "x.fbx"}) {
+        const Outcome refused = regather({"import", file_of_none, "-o", "y"});
+        EXPECT_EQ(refused.exit_code, 2);
+        EXPECT_THAT(refused.err, HasSubstr("KIND: found the file \"" + file_of_none +
+                                           "\", which no kind reads, expected a kind and a file: "));
+        EXPECT_THAT(refused.err, HasSubstr("mesh (.obj, .ply, .gltf, .glb)"));
+        EXPECT_THAT(refused.err, HasSubstr("openarena (.pk3)"));
+    }
     const Outcome none = regather({"import", "mesh"});
     EXPECT_EQ(none.exit_code, 2);
     EXPECT_THAT(none.err, HasSubstr("FILE: found none, expected what to read"));
