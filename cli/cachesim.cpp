@@ -19,6 +19,7 @@
 #include "results/provenance.h"
 #include "results/table.h"
 #include "trace/error.h"
+#include "trace/text.h"
 
 namespace regather::cli {
 
@@ -61,13 +62,17 @@ void check_effects(const Command& command, const Options& options) {
 std::vector<results::CacheRow> all_lru(const Options& options, const experiment::SweepListeners& listeners) {
     std::vector<std::uint32_t> line_sizes;
     if (options.lists.lines.empty()) throw trace::UsageError("--line: found none, expected one");
-    for (const std::string_view line : cachesim::list_parts(options.lists.lines))
-        line_sizes.push_back(cachesim::parse_line_bytes(line));
+    for (const std::string_view text : cachesim::list_parts(options.lists.lines)) {
+        const std::uint32_t line = cachesim::parse_line_bytes(text);
+        if (std::find(line_sizes.begin(), line_sizes.end(), line) != line_sizes.end())
+            throw trace::UsageError(fmt::format("--line {}: found twice, expected each once", line));
+        line_sizes.push_back(line);
+    }
     std::string_view ways = options.lists.ways.empty() ? "16" : std::string_view(options.lists.ways);
     const std::uint32_t most_ways = cachesim::parse_ways(ways);
     if (most_ways == cachesim::fully_associative || most_ways > 32)
-        throw trace::UsageError(
-            fmt::format("--ways: found '{}' beside --all-lru, expected the most ways, 1 to 32", ways));
+        throw trace::UsageError(fmt::format(
+            "--ways: found '{}' beside --all-lru, expected the most ways, 1 to 32", trace::shown(ways)));
     return experiment::sweep_all_lru(options.files, line_sizes, most_ways, !options.no_3c, listeners);
 }
 

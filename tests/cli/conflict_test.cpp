@@ -147,6 +147,8 @@ TEST(Words, TheSameTwiceInAListIsRefused) {
              {{"replay", "none", "--order", "naive", "--machine", "paper-128k,paper-128k"},
               {"paper-128k twice"}},
              {{"race", "none", "--structure", "bucketed,bucketed"}, {"--structure", "'bucketed' twice"}},
+             {{"cachesim", "none", "--all-lru", "--line", "32,64,32"}, {"--line 32", "twice"}},
+             {{"cachesim", "none", "--all-lru", "--line", "1024,1K"}, {"--line 1024", "twice"}},
              {{"sampling", "none", "--rates", "2,4,2"}, {"--rates", "'2' twice"}},
              {{"chart", "a.csv", "a.csv", "-o", "none"}, {"CSV", "'a.csv' twice"}},
              {{"stability", "--only", "maps,maps"}, {"--only", "'maps' twice"}}})
