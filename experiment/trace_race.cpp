@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "experiment/workload.h"
 #include "replay/verification.h"
 #include "spatial/photon_kd.h"
 #include "trace/error.h"
+#include "trace/text.h"
 
 namespace regather::experiment {
 namespace {
@@ -65,13 +66,18 @@ std::vector<results::RaceRow> race(trace::TraceReader& trace, TraceRace asked,
     std::vector<reorder::ParsedOrdering>& orderings = asked.orderings.all;
     const std::size_t baseline = baseline_of(orderings);
     const trace::TraceInfo& info = trace.info();
-    const RaceConfig config{
-        .k = asked.k == 0 ? info.k : asked.k,
-        .radius = replay::search_radius(info).value_or(std::numeric_limits<float>::infinity()),
-        .repeats = asked.repeats,
-        .threads = asked.threads,
-        .gathered = asked.gathered,
-        .structures = asked.structures};
+    const std::optional<float> radius = replay::search_radius(trace);
+    if (!radius)
+        throw trace::DataError(
+            fmt::format("{}: parameters.radius: found nothing, expected the radius of the searches (null: "
+                        "unlimited), which the race runs again",
+                        trace::shown((trace.folder() / "trace.json").string(), trace::most_shown_path)));
+    const RaceConfig config{.k = asked.k == 0 ? info.k : asked.k,
+                            .radius = *radius,
+                            .repeats = asked.repeats,
+                            .threads = asked.threads,
+                            .gathered = asked.gathered,
+                            .structures = asked.structures};
     const std::span<const trace::Photon> heap = trace.column<trace::Photon>("photon");
     const spatial::PhotonKd tree(heap);
     if (const std::uint32_t node = spatial::first_disorder(tree); node != tree.size())

@@ -11,6 +11,7 @@
 #include "spatial/photon_kd.h"
 #include "spatial/recording.h"
 #include "trace/error.h"
+#include "trace/text.h"
 
 namespace regather::replay {
 
@@ -20,11 +21,41 @@ using trace::Vec3;
 
 constexpr double unit_tolerance = 1e-3;
 
+/// Of trace.json.
+[[noreturn]] void refuse_field(const trace::TraceReader& trace, std::string_view field,
+                               std::string_view found, std::string_view expected) {
+    throw trace::DataError(
+        fmt::format("{}: {}: found {}, expected {}",
+                    trace::shown((trace.folder() / "trace.json").string(), trace::most_shown_path), field,
+                    found, expected));
+}
+
+std::string shown(const trace::Json& value) {
+    return trace::shown(value.dump());
+}
+
+/// Whether trace.json has what a capture writes, and `regather walk` does not.
+bool is_captured(const trace::TraceInfo& info) {
+    return info.parameters.find("renderer") || info.parameters.find("scene_checksum") ||
+           info.counts.find("photon_paths");
+}
+
+/// What a capture was asked for of the trace's map, and its path in trace.json; null when it is not there.
+struct MapParameters {
+    const trace::Json* object;
+    std::string path;
+};
+MapParameters map_parameters(const trace::TraceInfo& info) {
+    if (info.map == "caustic") return {info.parameters.find("caustic"), "parameters.caustic"};
+    return {&info.parameters, "parameters"};
+}
+
 class Verification {
 public:
     explicit Verification(trace::TraceReader& trace) : trace_(trace), info_(trace.info()) {}
 
     Verified run(const QueriesDone& progress) {
+        check_parameters();
         trace_.verify_all();
         const spatial::PhotonKd tree(trace_.column<trace::Photon>("photon"));
         if (const std::uint32_t node = spatial::first_disorder(tree); node != tree.size())
@@ -46,10 +77,8 @@ private:
                                            found, expected));
     }
     /// Of trace.json.
-    [[noreturn]] void refuse(std::string_view field, std::uint64_t found, const std::string& expected) const {
-        throw trace::DataError(fmt::format("{}: {}: found {}, expected {}",
-                                           (trace_.folder() / "trace.json").string(), field, found,
-                                           expected));
+    [[noreturn]] void refuse(std::string_view field, std::uint64_t found, std::string_view expected) const {
+        refuse_field(trace_, field, fmt::format("{}", found), expected);
     }
     template <class T, class Fits>
     void check_rows(std::string_view column, const std::string& expected, const Fits& fits) {
@@ -72,9 +101,38 @@ private:
         check_rows<Vec3>(column, "a vector of length 1",
                          [](Vec3 v) { return std::fabs(trace::length(v) - 1) <= unit_tolerance; });
     }
+    /// What the capture was asked for is what the trace says of itself.
+    void check_parameters() const {
+        const auto agree = [&](const trace::Json* of, const std::string& path, std::string_view key,
+                               std::string_view name, const trace::Json& value) {
+            const trace::Json* const asked = of ? of->find(key) : nullptr;
+            if (asked && *asked != value)
+                refuse_field(trace_, fmt::format("{}.{}", path, key), shown(*asked),
+                             fmt::format("{} as {}", shown(value), name));
+        };
+        const MapParameters map = map_parameters(info_);
+        agree(map.object, map.path, "k", "k", info_.k);
+        agree(&info_.parameters, "parameters", "width", "image_width", info_.image_width);
+        agree(&info_.parameters, "parameters", "height", "image_height", info_.image_height);
+        agree(&info_.parameters, "parameters", "seed", "seed", info_.seed);
+        search_radius(trace_);
+        for (const char* const kind : {"eye", "specular", "shadow", "gather"}) {
+            const std::string columns = fmt::format("ray_{}_", kind), rays = fmt::format("{}_rays", kind);
+            const auto column = trace_.digests().lower_bound(columns);
+            if (column == trace_.digests().end() || !column->first.starts_with(columns)) continue;
+            const trace::Json* const count = info_.counts.find(rays);
+            if (count && *count != trace::Json(column->second.rows))
+                refuse_field(trace_, fmt::format("counts.{}", rays), shown(*count),
+                             fmt::format("{} as the rows of {}", column->second.rows, column->first));
+        }
+    }
     void check_labels(const char* column, const char* leaves) {
+        if (!trace_.has(column)) return;
         const trace::Json* const count = info_.counts.find(leaves);
-        if (!count || !count->whole()) return;
+        if (!count && !is_captured(info_)) return;
+        if (!count || !count->whole())
+            refuse_field(trace_, fmt::format("counts.{}", leaves), count ? shown(*count) : "nothing",
+                         fmt::format("how many leaves {} counts", column));
         check_rows<std::uint32_t>(
             column, fmt::format("a leaf below {}, as {} in trace.json says", *count->whole(), leaves),
             [&](std::uint32_t label) { return label < *count->whole(); });
@@ -118,7 +176,7 @@ private:
         const std::uint64_t most = info_.queries * std::min<std::uint64_t>(info_.k, info_.photons);
         if (info_.found_photons > most)
             refuse("found_photons", info_.found_photons, fmt::format("at most {}", most));
-        const std::optional<float> radius = search_radius(info_);
+        const std::optional<float> radius = search_radius(trace_);
         if (!radius) return;
         const std::span<const Vec3> positions = trace_.column<Vec3>("query_position");
         const std::span<const std::uint32_t> lengths = trace_.column<std::uint32_t>("query_walk_bytes");
@@ -156,14 +214,22 @@ private:
 
 }  // namespace
 
-std::optional<float> search_radius(const trace::TraceInfo& info) {
-    const trace::Json* of = &info.parameters;
-    if (info.map == "caustic") of = of->find("caustic");
-    const trace::Json* const radius = of ? of->find("radius") : nullptr;
-    if (!radius) return std::nullopt;
+std::optional<float> search_radius(const trace::TraceReader& trace) {
+    const trace::TraceInfo& info = trace.info();
+    const MapParameters map = map_parameters(info);
+    const trace::Json* const radius = map.object ? map.object->find("radius") : nullptr;
+    const auto refuse = [&](std::string_view found) {
+        refuse_field(trace, map.path + ".radius", found,
+                     "the radius of the searches above 0, or null: unlimited");
+    };
+    if (!radius) {
+        if (is_captured(info) || info.map == "caustic") refuse("nothing");
+        return std::nullopt;
+    }
     if (radius->is_null()) return std::numeric_limits<float>::infinity();
-    if (!radius->is_number() || !(radius->number() > 0)) return std::nullopt;
-    return static_cast<float>(radius->number());
+    const auto length = static_cast<float>(radius->number());
+    if (!(length > 0) || !std::isfinite(length)) refuse(shown(*radius));
+    return length;
 }
 
 Verified verify(trace::TraceReader& trace, const QueriesDone& progress) {

@@ -15,10 +15,11 @@ struct Verified {
 };
 
 /// [scene units] How far the trace's queries were searched: infinite when unlimited; none when trace.json
-/// does not say.
-std::optional<float> search_radius(const trace::TraceInfo& info);
+/// does not say. Throws trace::DataError when it says what is no radius, or is of a capture, which says it.
+std::optional<float> search_radius(const trace::TraceReader& trace);
 
-/// Reads every column and checks: checksums; the order of the tree, finite photons; pixels inside the image;
+/// Reads every column and checks: k, size, seed and rays of trace.json against its parameters and columns;
+/// checksums; the order of the tree, finite photons; pixels inside the image;
 /// finite weights; unit directions; leaf labels below the number of leaves, where trace.json says it; rays;
 /// lengths that add up to the walks, walks that end where their bytes end, and their sum of nodes; then
 /// searches each query again and compares its walk byte by byte, and the sum of photons found. On all cores:

@@ -1,7 +1,10 @@
 // `regather race`: every ordering runs on every structure and finds the same; what is written; what is
 // refused. Times are only checked for being times.
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <tuple>
 
 #include "results/csv.h"
 #include "tests/cli/expect.h"
@@ -165,6 +168,33 @@ TEST(Race, AWrongCountInTheTraceIsBadData) {
           text.replace(text.find(before), before.size(), "\"found_photons\": " + std::to_string(found - 1)));
     expect_refused(bad_data, {"race", trace.string(), "--order", "naive", "--repeats", "1"},
                    {"trace.json", "found_photons", std::to_string(found - 1), std::to_string(found)});
+}
+
+// Without it the race would search elsewhere than the capture did.
+TEST(Race, ATraceWithoutARadiusIsRefused) {
+    const Scratch scratch;
+    const auto with = [&](const std::string& name, const std::string& radius) {
+        const fs::path trace = copied_trace(scratch, name);
+        std::string text = content(trace / "trace.json");
+        const std::string before = "\"radius\": null,";
+        EXPECT_THAT(text, HasSubstr(before));
+        write(trace / "trace.json", text.replace(text.find(before), before.size(), radius));
+        return trace.string();
+    };
+    for (const auto& [name, radius, found] : std::vector<std::tuple<const char*, const char*, const char*>>{
+             {"missing", "", "nothing"},
+             {"negative", "\"radius\": -1,", "-1"},
+             {"text", "\"radius\": \"abc\",", "\"abc\""}}) {
+        const std::string trace = with(name, radius);
+        const std::string message = fmt::format("trace.json: parameters.radius: found {}, expected", found);
+        expect_refused(bad_data, {"race", trace, "--repeats", "1"}, {message});
+        expect_refused(bad_data, {"info", trace, "--verify"}, {message});
+    }
+    const fs::path made = copied_trace(scratch, "made");
+    nlohmann::json info = nlohmann::json::parse(content(made / "trace.json"));
+    info["parameters"] = info["counts"] = nlohmann::json::object();
+    write(made / "trace.json", info.dump());
+    expect_refused(bad_data, {"race", made.string(), "--repeats", "1"}, {"parameters.radius: found nothing"});
 }
 
 }  // namespace

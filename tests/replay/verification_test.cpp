@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -150,18 +151,87 @@ TEST(Verification, EachBitOfTheWalksCounts) {
                 << byte << ' ' << bit;
 }
 
+std::optional<float> radius_of(const std::function<void(trace::TraceInfo&)>& change) {
+    const Scratch scratch;
+    Parts parts;
+    parts.info.parameters = trace::Json::object();
+    change(parts.info);
+    parts.write(scratch / "t");
+    return search_radius(trace::TraceReader(scratch / "t"));
+}
+
 TEST(Verification, TheRadiusIsThatOfTheMapThatWasSearched) {
-    trace::TraceInfo info;
-    EXPECT_FALSE(search_radius(info));
-    info.parameters["radius"] = 0.5;
-    info.parameters["caustic"] = trace::Json::object({{"radius", nullptr}});
-    EXPECT_EQ(search_radius(info), 0.5f);
-    info.map = "caustic";
-    EXPECT_EQ(search_radius(info), std::numeric_limits<float>::infinity());
-    info.parameters["caustic"]["radius"] = 0.25;
-    EXPECT_EQ(search_radius(info), 0.25f);
-    info.parameters["caustic"]["radius"] = "far";
-    EXPECT_FALSE(search_radius(info));
+    const auto both = [](trace::TraceInfo& info) {
+        info.parameters["radius"] = 0.5;
+        info.parameters["caustic"] = trace::Json::object({{"radius", nullptr}});
+    };
+    EXPECT_FALSE(radius_of([](trace::TraceInfo&) {}));
+    EXPECT_EQ(radius_of(both), 0.5f);
+    EXPECT_EQ(radius_of([&](trace::TraceInfo& info) {
+                  both(info);
+                  info.map = "caustic";
+              }),
+              std::numeric_limits<float>::infinity());
+    EXPECT_EQ(radius_of([&](trace::TraceInfo& info) {
+                  both(info);
+                  info.map = "caustic";
+                  info.parameters["caustic"]["radius"] = 0.25;
+              }),
+              0.25f);
+}
+
+TEST(Verification, ParametersThatContradictTheTraceAreRefused) {
+    const struct {
+        const char* message;
+        std::function<void(Parts&)> change;
+    } cases[] = {
+        {"trace.json: parameters.radius: found -1, expected",
+         [](Parts& p) { p.info.parameters["radius"] = -1; }},
+        {"trace.json: parameters.radius: found 0, expected",
+         [](Parts& p) { p.info.parameters["radius"] = 0; }},
+        {"parameters.radius: found \"abc\", expected", [](Parts& p) { p.info.parameters["radius"] = "abc"; }},
+        {"parameters.radius: found true, expected", [](Parts& p) { p.info.parameters["radius"] = true; }},
+        {"parameters.radius: found nothing, expected",
+         [](Parts& p) {
+             p.info.parameters = trace::Json::object({{"scene_checksum", "2d46244c72294a8a"}});
+         }},
+        {"parameters.radius: found nothing, expected",
+         [](Parts& p) {
+             p.info.parameters = trace::Json::object();
+             p.info.counts["photon_paths"] = 7;
+         }},
+        {"parameters.caustic.radius: found nothing, expected", [](Parts& p) { p.info.map = "caustic"; }},
+        {"parameters.k: found 6, expected 5 as k", [](Parts& p) { p.info.parameters["k"] = 6; }},
+        {"parameters.caustic.k: found 6, expected 5 as k",
+         [](Parts& p) {
+             p.info.map = "caustic";
+             p.info.parameters["k"] = 7;
+             p.info.parameters["caustic"] = trace::Json::object({{"k", 6}, {"radius", 0.15}});
+         }},
+        {"parameters.width: found 4, expected 3 as image_width",
+         [](Parts& p) { p.info.parameters["width"] = 4; }},
+        {"parameters.height: found 3, expected 2 as image_height",
+         [](Parts& p) { p.info.parameters["height"] = 3; }},
+        {"parameters.seed: found 1, expected 0 as seed", [](Parts& p) { p.info.parameters["seed"] = 1; }},
+        {"counts.eye_rays: found 3, expected 2 as the rows of ray_eye_extent",
+         [](Parts& p) { p.info.counts["eye_rays"] = 3; }},
+        {"counts.leaves_kd: found nothing, expected how many leaves query_leaf_kd counts",
+         [](Parts& p) {
+             p.info.counts = trace::Json::object();
+             p.info.parameters["scene_checksum"] = "2d46244c72294a8a";
+         }},
+        {"counts.leaves_kd: found \"three\", expected",
+         [](Parts& p) { p.info.counts["leaves_kd"] = "three"; }},
+    };
+    for (const auto& [message, change] : cases) EXPECT_THAT(refusal(change), HasSubstr(message));
+    // The caustic map has its own k and radius, beside which the other map's do not count.
+    EXPECT_EQ(refusal([](Parts& p) {
+                  p.info.map = "caustic";
+                  p.info.parameters["k"] = 7;
+                  p.info.parameters["radius"] = 0.7;
+                  p.info.parameters["caustic"] = trace::Json::object({{"k", 5}, {"radius", 0.15}});
+              }),
+              "accepted");
 }
 
 TEST(Verification, WithoutARadiusTheWalksAreDecodedOnly) {
