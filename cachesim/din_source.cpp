@@ -35,10 +35,14 @@ std::string_view without_blanks(std::string_view text) {
 }  // namespace
 
 SourceFile open_source_file(const std::filesystem::path& name) {
+    const auto refuse = [&](std::string_view found) {
+        throw trace::DataError(fmt::format("{}: found {}, expected a file: an address trace (.npy or din)",
+                                           trace::shown(name.string(), trace::most_shown_path), found));
+    };
     SourceFile file(std::fopen(name.c_str(), "rb"));
-    if (!file)
-        throw trace::DataError(fmt::format("{}: found {}, expected an address trace (.npy or din)",
-                                           name.string(), std::strerror(errno)));
+    if (!file) refuse(std::strerror(errno));
+    std::error_code error;
+    if (std::filesystem::is_directory(name, error)) refuse("a folder");
     return file;
 }
 

@@ -26,6 +26,7 @@ reorder::Workload workload(trace::TraceReader& trace, const reorder::Reads& read
     work.bounds = trace::bounds_of(work.position);
     work.image_width = info.image_width;
     work.image_height = info.image_height;
+    work.folder = trace.folder();
     return work;
 }
 

@@ -9,15 +9,21 @@
 
 #include "reorder/sort.h"
 #include "trace/error.h"
+#include "trace/text.h"
 
 namespace regather::reorder {
 namespace {
 
-void check_column(std::string_view name, std::size_t rows, std::size_t queries, bool needed) {
+std::string file_of(const Workload& work, std::string_view column) {
+    return trace::shown((work.folder / fmt::format("query_{}.npy", column)).string(), trace::most_shown_path);
+}
+
+void check_column(const Workload& work, std::string_view name, std::size_t rows, bool needed) {
+    const std::size_t queries = work.position.size();
     if (rows == queries) return;
     if (rows != 0)
-        throw trace::DataError(
-            fmt::format("column {}: {} rows, expected {} as in column position", name, rows, queries));
+        throw trace::DataError(fmt::format("{}: found {} rows, expected {} as in query_position.npy",
+                                           file_of(work, name), rows, queries));
     if (needed)
         throw trace::UsageError(
             fmt::format("the ordering reads column {}, which this capture does not have", name));
@@ -39,19 +45,19 @@ void check(const Workload& work, Reads reads) {
     const std::size_t queries = work.position.size();
     if (queries > 0xffffffffu)
         throw trace::UsageError(fmt::format("{} queries to order, at most 4294967295 are possible", queries));
-    check_column("pixel", work.pixel.size(), queries, true);
-    check_column("direction", work.direction.size(), queries, reads.direction);
-    check_column("leaf_kd", work.leaf_kd.size(), queries, reads.leaf_kd);
-    check_column("leaf_bvh", work.leaf_bvh.size(), queries, reads.leaf_bvh);
+    check_column(work, "pixel", work.pixel.size(), true);
+    check_column(work, "direction", work.direction.size(), reads.direction);
+    check_column(work, "leaf_kd", work.leaf_kd.size(), reads.leaf_kd);
+    check_column(work, "leaf_bvh", work.leaf_bvh.size(), reads.leaf_bvh);
     const std::uint64_t pixels = std::uint64_t{work.image_width} * work.image_height;
     if (pixels == 0 || pixels > std::uint64_t{1} << 32)
         throw trace::DataError(fmt::format("image of {} x {} pixels, expected 1 to 2^32 pixels",
                                            work.image_width, work.image_height));
     const std::size_t outside = first_outside(work.pixel, pixels);
     if (outside != queries)
-        throw trace::DataError(
-            fmt::format("column pixel: row {} is {}, expected less than {} ({} x {} pixels)", outside,
-                        work.pixel[outside], pixels, work.image_width, work.image_height));
+        throw trace::DataError(fmt::format("{}: row {}: found {}, expected less than {} ({} x {} pixels)",
+                                           file_of(work, "pixel"), outside, work.pixel[outside], pixels,
+                                           work.image_width, work.image_height));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -50,6 +51,7 @@ struct Workload {
     std::span<const std::uint32_t> leaf_bvh;          ///< Leaf label: BVH over the triangles.
     Bounds3 bounds;                                   ///< Of all finite positions.
     std::uint32_t image_width = 1, image_height = 1;  ///< [pixels]
+    std::filesystem::path folder = {};                ///< Of the columns' files, for messages.
 };
 
 /// What producing an ordering costs a machine that does it as the paper describes. Counts, no ratios.

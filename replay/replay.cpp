@@ -124,13 +124,12 @@ private:
 
 }  // namespace
 
-void refuse_walk(std::uint64_t query, spatial::WalkFault fault) {
+void refuse_walk(const WalkStore& walks, std::uint64_t query, spatial::WalkFault fault) {
     constexpr std::array<std::string_view, 4> found{"", "a walk that ends early",
                                                     "bytes after the walk's end",
                                                     "a walk that enters a node that does not exist"};
-    throw trace::DataError(
-        fmt::format("walk.npy: query {}: found {}, expected the walk of a search in this tree", query,
-                    found[static_cast<std::size_t>(fault)]));
+    throw trace::DataError(fmt::format("{}: query {}: found {}, expected the walk of a search in this tree",
+                                       walks.file(), query, found[static_cast<std::size_t>(fault)]));
 }
 
 bool family_serves(const CacheConfig& config) {

@@ -15,8 +15,8 @@
 
 namespace regather::replay {
 
-/// Throws trace::DataError that names the query whose walk does not fit its tree.
-[[noreturn]] void refuse_walk(std::uint64_t query, spatial::WalkFault fault);
+/// Throws trace::DataError that names the file and the query whose walk does not fit its tree.
+[[noreturn]] void refuse_walk(const WalkStore& walks, std::uint64_t query, spatial::WalkFault fault);
 
 /// Calls visit(slots) for the walk of each query of `permutation`. Returns the number of visited nodes.
 template <class Visit>
@@ -33,7 +33,7 @@ std::uint64_t run_walks(const WalkStore& walks, std::span<const std::uint32_t> p
             __builtin_prefetch(ahead.data() + ahead.size());
         }
         const auto [fault, slots] = decoder.decode(walks.walk(permutation[r]));
-        if (fault != spatial::WalkFault::none) refuse_walk(permutation[r], fault);
+        if (fault != spatial::WalkFault::none) refuse_walk(walks, permutation[r], fault);
         visited += slots.size();
         visit(slots);
         if (progress && (r + 1) % progress_queries == 0) progress(r + 1);
@@ -55,7 +55,7 @@ void run_all_walks(const WalkStore& walks, tbb::enumerable_thread_specific<Part>
         Part& part = parts.local();
         for (std::uint64_t q = range.begin(); q != range.end(); ++q) {
             const auto [fault, slots] = decoder.decode(walks.walk(q));
-            if (fault != spatial::WalkFault::none) refuse_walk(q, fault);
+            if (fault != spatial::WalkFault::none) refuse_walk(walks, q, fault);
             visit(part, slots);
         }
         done += range.size();

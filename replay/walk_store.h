@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "trace/folder.h"
@@ -14,11 +15,13 @@ class WalkStore {
 public:
     /// Throws trace::DataError when the lengths do not add up to the bytes there are.
     explicit WalkStore(trace::TraceReader& trace);
+    /// `file`: where the walks are from, for messages.
     WalkStore(std::uint32_t photons, std::span<const std::uint32_t> walk_bytes,
-              std::span<const std::uint8_t> walks);
+              std::span<const std::uint8_t> walks, std::string file = "walk.npy");
 
     std::uint64_t queries() const { return walk_bytes_.size(); }
     std::uint32_t photons() const { return photons_; }
+    const std::string& file() const { return file_; }
     std::span<const std::uint8_t> walk(std::uint64_t query) const {
         std::uint64_t start = block_start_[query / block_queries];
         for (std::uint64_t q = query / block_queries * block_queries; q < query; ++q) start += walk_bytes_[q];
@@ -36,6 +39,7 @@ private:
     std::span<const std::uint32_t> walk_bytes_;
     std::span<const std::uint8_t> walks_;
     std::vector<std::uint64_t> block_start_;
+    std::string file_;
 };
 
 }  // namespace regather::replay

@@ -126,11 +126,11 @@ TEST(Order, RefusesInconsistentColumns) {
     Queries queries = one_per_pixel(4, 4);
     queries.direction.resize(15);
     EXPECT_EQ(refusal("naive", queries),
-              "data: column direction: 15 rows, expected 16 as in column position");
+              "data: query_direction.npy: found 15 rows, expected 16 as in query_position.npy");
     queries = one_per_pixel(4, 4);
     queries.pixel[9] = 16;
     EXPECT_EQ(refusal("naive", queries),
-              "data: column pixel: row 9 is 16, expected less than 16 (4 x 4 pixels)");
+              "data: query_pixel.npy: row 9: found 16, expected less than 16 (4 x 4 pixels)");
     queries = one_per_pixel(4, 4);
     queries.height = 0;
     EXPECT_EQ(refusal("naive", queries), "data: image of 4 x 0 pixels, expected 1 to 2^32 pixels");
