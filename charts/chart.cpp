@@ -4,8 +4,10 @@
 
 #include "charts/gnuplot.h"
 #include "charts/kinds.h"
+#include "charts/lettering.h"
 #include "trace/error.h"
 #include "trace/file.h"
+#include "trace/text.h"
 
 namespace regather::charts {
 namespace {
@@ -51,7 +53,7 @@ constexpr ChartKind kinds_table[] = {
 
 std::string xml_text(std::string_view text) {
     std::string out;
-    for (const char c : text)
+    for (const char c : drawable(text))
         out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
     return out;
 }
@@ -75,7 +77,8 @@ const ChartKind& chart_kind(std::string_view name) {
         if (kind.name == name) return kind;
         names += fmt::format("{}{}", names.empty() ? "" : ", ", kind.name);
     }
-    throw trace::UsageError(fmt::format("chart \"{}\" is not known, expected one of {}", name, names));
+    throw trace::UsageError(
+        fmt::format("chart {} is not known, expected one of {}", trace::in_quotes(name), names));
 }
 
 std::string script(const Chart& chart, Picture picture) {

@@ -12,6 +12,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "charts/lettering.h"
+
 extern char** environ;
 
 namespace regather::charts {
@@ -87,12 +89,12 @@ std::string run_gnuplot(std::string_view script) {
 
 std::string gnuplot_string(std::string_view text) {
     std::string out = "'";
-    for (const char c : text) {
+    for (const char c : drawable(text)) {
         // gnuplot 5.4 fails on some strings with a doubled quote: the typographic one looks the same.
         if (c == '\'')
             out += "\xE2\x80\x99";
         else
-            out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+            out += c;
     }
     return out + '\'';
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "results/table.h"
+#include "trace/text.h"
 
 namespace regather::charts {
 namespace {
@@ -28,6 +29,24 @@ std::string_view separator_of(std::string_view text) {
 }
 
 }  // namespace
+
+std::string drawable(std::string_view text) {
+    constexpr std::string_view replacement = "\xEF\xBF\xBD";
+    std::string out;
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t length = trace::utf8_length(text.substr(i));
+        const std::string_view letter = text.substr(i, std::max<std::size_t>(length, 1));
+        i += letter.size();
+        const auto first = static_cast<unsigned char>(letter[0]);
+        if (length == 1)
+            out += first < ' ' || first == 127 ? ' ' : letter[0];
+        else if (length == 0 || letter == "\xEF\xBF\xBE" || letter == "\xEF\xBF\xBF")
+            out += replacement;
+        else
+            out += letter;
+    }
+    return out;
+}
 
 double text_width(std::string_view utf8, double font_size) {
     double sum = 0;

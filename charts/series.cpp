@@ -9,6 +9,7 @@
 
 #include "results/parameters.h"
 #include "trace/error.h"
+#include "trace/text.h"
 
 namespace regather::charts {
 namespace {
@@ -115,10 +116,11 @@ void settle(Group& group, Along along, bool flat) {
         if (a.traffic_bytes != b.traffic_bytes || a.key_ops != b.key_ops ||
             a.buffered_bytes != b.buffered_bytes)
             throw trace::DataError(fmt::format(
-                "rows of \"{}\" contradict each other: the same parameters and cache with {} and with {} "
+                "rows of {} contradict each other: the same parameters and cache with {} and with {} "
                 "bytes of "
                 "traffic, expected one measurement each",
-                b.parameters.empty() ? b.ordering : b.parameters, *a.traffic_bytes, *b.traffic_bytes));
+                trace::in_quotes(b.parameters.empty() ? b.ordering : b.parameters), *a.traffic_bytes,
+                *b.traffic_bytes));
         rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(i));
     }
     std::vector<const results::Row*> places;

@@ -20,7 +20,8 @@ namespace {
 
 struct Request {
     std::vector<std::string> csv, kinds;
-    std::string folder, cache;
+    std::string cache;
+    std::filesystem::path folder;
     std::uint64_t tile = 16, bins = 16;
     bool force = false;
 };
@@ -35,11 +36,12 @@ void run(const Request& request, const Console& console) {
     results::Rows rows;
     for (const std::string& file : request.csv)
         for (const std::string& name : rows.add(results::read_csv_text(file), file))
-            fmt::print(console.err, "regather: {}: the column {} is not known, and not looked at\n", file,
-                       trace::in_quotes(name));
+            fmt::print(console.err, "regather: {}: the column {} is not known, and not looked at\n",
+                       trace::shown(file, trace::most_shown_path), trace::in_quotes(name));
     const auto kinds = charts::wanted_kinds(rows, request.kinds);
     if (kinds.empty())
-        throw trace::DataError(fmt::format("{}: no rows, expected at least one", request.csv[0]));
+        throw trace::DataError(fmt::format("{}: no rows, expected at least one",
+                                           trace::shown(request.csv[0], trace::most_shown_path)));
     for (const charts::ChartKind* const kind : kinds)
         trace::refuse_to_overwrite(charts::files_of(request.folder, *kind), request.force);
     bool any = false;
@@ -50,7 +52,8 @@ void run(const Request& request, const Console& console) {
         if (drawn.kind == "sampling-error" && !drawn.files.empty())
             console.print("{}", results::text_of(results::accuracy_table(rows.of<results::SamplingRow>())));
         if (drawn.skipped.empty()) continue;
-        const std::string line = fmt::format("{}: not drawn: {}", drawn.kind, drawn.skipped);
+        const std::string line =
+            fmt::format("{}: not drawn: {}", drawn.kind, trace::shown(drawn.skipped, 300));
         console.print("{}\n", line);
         if (skipped.empty()) skipped = line;
     }

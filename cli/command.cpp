@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 
 #include "trace/error.h"
 #include "trace/text.h"
@@ -91,6 +92,18 @@ void refuse_repeated(const std::string& name, const Words& words) {
     for (auto word = words.begin(); word != words.end(); ++word)
         if (std::find(words.begin(), word, *word) != word)
             refuse(name, fmt::format("{} twice", in_quotes(*word)), "each once");
+}
+
+/// What no file system takes is wrong usage, before any work is done for it.
+const std::string& path_word(std::string_view name, const std::string& word) {
+    constexpr std::size_t most_path = 4095, most_name = 255;  // [bytes] PATH_MAX without its 0, NAME_MAX
+    std::size_t longest = 0;
+    for (const std::filesystem::path& part : std::filesystem::path(word))
+        longest = std::max(longest, part.native().size());
+    if (word.size() > most_path || longest > most_name)
+        refuse(name, fmt::format("a path of {} bytes, {}", word.size(), in_quotes(word)),
+               fmt::format("names of at most {} bytes and {} in all", most_name, most_path));
+    return word;
 }
 
 /// An option of one word, which `take` is given.
@@ -189,9 +202,11 @@ Command::Option Command::arguments(std::string_view name, std::vector<std::strin
 
 Command::Option Command::arguments(std::string_view name, std::vector<std::filesystem::path>& to,
                                    std::string_view help) {
-    return Option(add_several(*app_, name, help, "", "", [&to](const std::string&, const Words& words) {
-        to.assign(words.begin(), words.end());
-    }));
+    return Option(
+        add_several(*app_, name, help, "", "", [&to](const std::string& argument, const Words& words) {
+            for (const std::string& word : words) path_word(argument, word);
+            to.assign(words.begin(), words.end());
+        }));
 }
 
 Command::Option Command::option(std::string_view names, std::string& to, std::string_view help) {
@@ -201,7 +216,9 @@ Command::Option Command::option(std::string_view names, std::string& to, std::st
 
 Command::Option Command::option(std::string_view names, std::filesystem::path& to, std::string_view help) {
     return Option(add_single(*app_, names, help, names.starts_with('-') ? "PATH" : "", to.string(),
-                             [&to](const std::string&, const std::string& word) { to = word; }));
+                             [&to](const std::string& name, const std::string& word) {
+                                 to = name.starts_with('-') ? path_word(name, word) : word;
+                             }));
 }
 
 Command::Option Command::option(std::string_view names, std::uint32_t& to, Whole range,

@@ -83,7 +83,8 @@ void run_words(Words words, const Console& console) {
 }
 
 int fail(const Console& console, int code, std::string_view message) {
-    fmt::print(console.err, "regather: {}\n", message);
+    constexpr std::size_t most = 4000;  // lists of what is known are some hundred bytes
+    fmt::print(console.err, "regather: {}\n", trace::shown(message, most));
     std::fflush(console.err);
     return code;
 }

@@ -7,7 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "trace/text.h"
+
 namespace regather::cli {
+
+inline constexpr std::size_t most_shown_note = 1000;  ///< [bytes]
 
 struct Console {
     std::FILE* out;                         ///< Data, and what was made.
@@ -21,7 +25,8 @@ struct Console {
 
     /// What is not taken over, or was guessed: a line "note: LINE" each, on err.
     void note(const std::vector<std::string>& lines) const {
-        for (const std::string& line : lines) fmt::print(err, "note: {}\n", line);
+        for (const std::string& line : lines)
+            fmt::print(err, "note: {}\n", trace::shown(line, most_shown_note));
     }
 };
 

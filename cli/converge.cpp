@@ -13,6 +13,7 @@
 #include "results/ladder.h"
 #include "results/provenance.h"
 #include "study/convergence_job.h"
+#include "trace/text.h"
 
 namespace regather::cli {
 namespace {
@@ -47,8 +48,9 @@ study::Converged measure(const study::ConvergenceJob& job, const Console& consol
 
 void run(const study::ConvergenceJob& job, const Console& console) {
     const study::Converged made = measure(job, console);
-    console.print("{}, {} x {} pixels, {} seeds; % of the mean radiance {:.4g} W / (m^2 sr)\n", made.scene,
-                  made.config.width, made.config.height, made.config.seeds, made.mean_radiance);
+    console.print("{}, {} x {} pixels, {} seeds; % of the mean radiance {:.4g} W / (m^2 sr)\n",
+                  trace::shown(made.scene), made.config.width, made.config.height, made.config.seeds,
+                  made.mean_radiance);
     console.print("reference: {} samples a pixel in {:.1f} s, own RMSE {:.3g} %; no error below it is told\n",
                   made.reference.samples, made.reference.seconds,
                   100 * made.reference_rmse / (made.mean_radiance > 0 ? made.mean_radiance : 1));

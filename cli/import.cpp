@@ -43,7 +43,7 @@ const Importer& importer_of(const std::string& word) {
             fmt::format("KIND: found the file {}, which no kind reads, expected a kind and a file: {}",
                         trace::in_quotes(word), kinds));
     }
-    throw UsageError(fmt::format("KIND: found '{}', expected {} (known: {})", word,
+    throw UsageError(fmt::format("KIND: found '{}', expected {} (known: {})", trace::shown(word),
                                  trace::alternatives(trace::nearest_words(word, names)),
                                  trace::listed(names)));
 }

@@ -12,9 +12,12 @@
 #include "scenes/needs.h"
 #include "trace/error.h"
 #include "trace/folder.h"
+#include "trace/text.h"
 
 namespace regather::cli {
 namespace {
+
+constexpr std::size_t most_shown_json = 4000;  // a capture's has some hundred bytes
 
 void print_trace(const std::filesystem::path& folder, bool verify, const Console& console) {
     trace::TraceReader trace(folder);
@@ -31,14 +34,16 @@ void print_trace(const std::filesystem::path& folder, bool verify, const Console
     console.print(
         "trace      {}\nscene      {}{}\nmap        {}\nimage      {} x {} pixels\nseed       {}\nstructure  "
         "{}, {} photons, k = {}\n",
-        folder.string(), info.scene, info.frame ? fmt::format(", frame {}", *info.frame) : "", info.map,
-        info.image_width, info.image_height, info.seed, info.structure, info.photons, info.k);
+        trace::shown(folder.string(), trace::most_shown_path), trace::shown(info.scene),
+        info.frame ? fmt::format(", frame {}", *info.frame) : "", info.map, info.image_width,
+        info.image_height, info.seed, info.structure, info.photons, info.k);
     console.print("queries    {}: {:.1f} photons found, {:.1f} nodes visited, {:.1f} bytes of walk each\n",
                   info.queries, static_cast<double>(info.found_photons) / queries,
                   static_cast<double>(info.visited_nodes) / queries,
                   static_cast<double>(trace.digests().at("walk").rows) / queries);
     console.print("checksum   {}\nparameters {}\ncounts     {}\ncolumns\n", trace.checksum(),
-                  info.parameters.dump(), info.counts.dump());
+                  trace::shown(info.parameters.dump(), most_shown_json),
+                  trace::shown(info.counts.dump(), most_shown_json));
     for (const trace::ColumnEntry& entry : trace::column_table()) {
         if (!trace.has(entry.name)) continue;
         const std::uint64_t rows = trace.digests().at(std::string(entry.name)).rows;
@@ -47,7 +52,7 @@ void print_trace(const std::filesystem::path& folder, bool verify, const Console
                       entry.unit);
     }
     for (const trace::LeftOut& part : info.left_out)
-        console.print("left out   {}: {}\n", part.what, part.why);
+        console.print("left out   {}: {}\n", trace::shown(part.what), trace::shown(part.why, 200));
     if (!verify) return;
     console.print("verified   checksums, the order of the tree, pixels, directions, rays, walks{}\n",
                   verified.searched ? "; each query was searched again and walks the same way"
@@ -80,8 +85,8 @@ void add_info(Command& command) {
             throw trace::UsageError(
                 fmt::format("--verify: found with the scene {}, expected a trace's folder: a scene is "
                             "checked in any case",
-                            scene.name));
-        console.print("scene      {}, {} triangles, {} materials, {} lights\n", scene.name,
+                            trace::shown(scene.name)));
+        console.print("scene      {}, {} triangles, {} materials, {} lights\n", trace::shown(scene.name),
                       scene.triangles.size(), scene.materials.size(), scene.lights.size());
         const scenes::Needs needs = scenes::needs_of(scene);
         for (const scenes::Need* need : needs.list())

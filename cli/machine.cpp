@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "results/table.h"
 #include "trace/size.h"
+#include "trace/text.h"
 
 namespace regather::cli {
 
@@ -48,14 +49,14 @@ void print_line(const Console& console, std::string_view label, std::string_view
     const auto source =
         std::find_if(sources.begin(), sources.end(), [&](const auto& s) { return s.key == key; });
     if (source == sources.end())
-        console.print("  {:<15}{}\n", label, value);
+        console.print("  {:<15}{}\n", label, trace::shown(value));
     else
-        console.print("  {:<15}{:<14}{}\n", label, value, source->text);
+        console.print("  {:<15}{:<14}{}\n", label, trace::shown(value), trace::shown(source->text, 300));
 }
 
 void print_level(const Console& console, const LevelConfig& level,
                  const std::vector<cachesim::Source>& sources) {
-    console.print("\n{}: {} sets of {}\n", level.name, level.cache.sets(), level.cache.ways());
+    console.print("\n{}: {} sets of {}\n", trace::shown(level.name), level.cache.sets(), level.cache.ways());
     const auto line = [&](std::string_view key, std::string_view value) {
         print_line(console, key, value, sources, key);
     };
@@ -92,8 +93,8 @@ void print_dram(const Console& console, const cachesim::DramConfig& dram,
 
 void print_details(const std::string& name_or_path, const Console& console) {
     const Machine machine = cachesim::load_machine(name_or_path);
-    console.print("{}\n", machine.name);
-    if (!machine.summary.empty()) console.print("{}\n", machine.summary);
+    console.print("{}\n", trace::shown(machine.name));
+    if (!machine.summary.empty()) console.print("{}\n", trace::shown(machine.summary, 300));
     for (std::size_t i = 0; i < machine.levels.size(); ++i)
         print_level(console, machine.levels[i], machine.sources[i]);
     if (machine.dram) print_dram(console, *machine.dram, machine.dram_sources);

@@ -37,7 +37,7 @@ void Progress::clear() {
 
 void Progress::note(std::string_view text) {
     const std::lock_guard lock(mutex_);
-    fmt::print(err_, "{}note: {}\n", shown_ ? "\r\x1b[K" : "", text);
+    fmt::print(err_, "{}note: {}\n", shown_ ? "\r\x1b[K" : "", trace::shown(text, most_shown_note));
     shown_ = false;
 }
 

@@ -15,6 +15,7 @@
 #include "results/race_row.h"
 #include "trace/error.h"
 #include "trace/folder.h"
+#include "trace/text.h"
 
 namespace regather::cli {
 namespace {
@@ -33,8 +34,8 @@ std::vector<experiment::Structure> parse_structures(const std::vector<std::strin
     for (const std::string& word : words) {
         const std::optional<experiment::Structure> structure = experiment::structure_named(word);
         if (!structure)
-            throw trace::UsageError(
-                fmt::format("--structure: found '{}', expected left-balanced or bucketed", word));
+            throw trace::UsageError(fmt::format("--structure: found '{}', expected left-balanced or bucketed",
+                                                trace::shown(word)));
         parsed.push_back(*structure);
     }
     return parsed;

@@ -21,6 +21,7 @@
 #include "scenes/summary.h"
 #include "trace/error.h"
 #include "trace/file.h"
+#include "trace/text.h"
 
 namespace regather::cli {
 
@@ -68,7 +69,8 @@ void print_all(const Console& console) {
 void write_thumbnails(const std::filesystem::path& file, std::vector<std::string> names, bool force,
                       const Console& console) {
     if (file.extension() != ".png")
-        throw trace::UsageError(fmt::format("--thumbnails: found {}, expected a .png file", file.string()));
+        throw trace::UsageError(fmt::format("--thumbnails: found {}, expected a .png file",
+                                            trace::in_quotes(file.string(), trace::most_shown_path)));
     trace::refuse_to_overwrite(std::array{file}, force);
     if (names.empty())
         for (const scenes::EmbeddedScene& entry : scenes::catalogue()) names.emplace_back(entry.name);
@@ -88,7 +90,7 @@ void print_details(const std::string& name_or_path, const Console& console) {
     const Scene scene = scenes::load_scene(name_or_path);
     console.note(scene.notes);
     const auto line = [&](std::string_view label, const std::string& text) {
-        console.print("{:<22}{}\n", label, text);
+        console.print("{:<22}{}\n", label, trace::shown(text, 500));
     };
     line("name", scene.name);
     for (const scenes::EmbeddedScene& entry : scenes::catalogue())
@@ -163,7 +165,7 @@ void add_scenes(Command& command) {
         if (asked.names.size() > 1)
             throw trace::UsageError(
                 fmt::format("SCENE: found '{}' after '{}', expected nothing more without --thumbnails",
-                            asked.names[1], asked.names[0]));
+                            trace::shown(asked.names[1]), trace::shown(asked.names[0])));
         print_details(asked.names[0], console);
     });
 }

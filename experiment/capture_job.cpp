@@ -10,6 +10,7 @@
 #include "scenes/loader.h"
 #include "trace/error.h"
 #include "trace/folder.h"
+#include "trace/text.h"
 
 namespace regather::experiment {
 namespace {
@@ -77,8 +78,8 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
     } else {
         fs::remove_all(files.caustic_trace);
     }
-    const std::string name =
-        config.frame ? fmt::format("{}, frame {}", scene.name, *config.frame) : scene.name;
+    const std::string shown = trace::shown(scene.name);
+    const std::string name = config.frame ? fmt::format("{}, frame {}", shown, *config.frame) : shown;
     config.progress = [&](std::string_view stage, std::uint64_t done, std::uint64_t total) {
         if (progress) progress(fmt::format("capturing {}: {}", name, stage), stage, done, total);
     };
@@ -94,7 +95,7 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
     writer.finish(captured.info);
 
     std::string report =
-        fmt::format("captured {} ({} triangles{})\n{}", scene.name, scene.triangles.size(),
+        fmt::format("captured {} ({} triangles{})\n{}", trace::shown(scene.name), scene.triangles.size(),
                     config.frame ? fmt::format(", frame {}", *config.frame) : "", figures(captured.info));
     if (captured.caustic_info) report += figures(*captured.caustic_info);
     report += fmt::format(
@@ -102,7 +103,7 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
         captured.photon_seconds, captured.tree_seconds, captured.query_seconds, captured.gather_seconds,
         captured.write_seconds);
     for (const trace::LeftOut& part : captured.info.left_out)
-        report += fmt::format("  left out {}: {}\n", part.what, part.why);
+        report += fmt::format("  left out {}: {}\n", trace::shown(part.what), trace::shown(part.why, 200));
     if (captured.nonfinite.total() > 0) report += fmt::format("  {}\n", captured.nonfinite.text());
     report += fmt::format("  image: {} and {}\n  trace: {}{}\n", files.exr.string(), files.png.string(),
                           files.trace.string(),

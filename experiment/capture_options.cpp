@@ -11,6 +11,7 @@
 #include "reorder/catalogue.h"
 #include "trace/error.h"
 #include "trace/field.h"
+#include "trace/text.h"
 
 namespace regather::experiment {
 namespace {
@@ -20,7 +21,7 @@ Enum chosen(const std::string& word, const std::array<const char*, n>& names, co
     for (std::size_t i = 0; i < n; ++i)
         if (word == names[i]) return static_cast<Enum>(i);
     throw trace::UsageError(
-        fmt::format("{}: found '{}', expected one of {}", what, word, fmt::join(names, ", ")));
+        fmt::format("{}: found '{}', expected one of {}", what, trace::shown(word), fmt::join(names, ", ")));
 }
 float length(double value, const char* what) {
     if (!(value >= 0))
@@ -58,8 +59,9 @@ capture::CaptureConfig CaptureOptions::config() const {
     config.columns.rays = rays;
     const std::shared_ptr<reorder::Ordering> ordering = reorder::make_ordering(gather_order);
     if (ordering->reads().leaf_kd || ordering->reads().leaf_bvh)
-        throw trace::UsageError(fmt::format(
-            "gather_order: found {}, expected an ordering that needs no leaf labels", gather_order));
+        throw trace::UsageError(
+            fmt::format("gather_order: found {}, expected an ordering that needs no leaf labels",
+                        trace::in_quotes(gather_order)));
     config.order = [ordering, w = width, h = height](const capture::Queries& queries) {
         const reorder::Workload work{.position = queries.position,
                                      .direction = queries.direction,

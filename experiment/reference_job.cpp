@@ -9,6 +9,7 @@
 #include "scenes/camera_path.h"
 #include "scenes/loader.h"
 #include "trace/folder_lock.h"
+#include "trace/text.h"
 
 namespace regather::experiment {
 namespace {
@@ -87,7 +88,7 @@ capture::Reference run(const ReferenceJob& job, const ProgressListener& progress
 std::string report(const capture::Reference& reference, const fs::path& folder) {
     const double noise = std::sqrt(reference.mean_variance()), mean = reference.mean_radiance();
     std::string text =
-        fmt::format("{}: {} x {} pixels, {} samples a pixel in {:.1f} s\n", reference.key.scene,
+        fmt::format("{}: {} x {} pixels, {} samples a pixel in {:.1f} s\n", trace::shown(reference.key.scene),
                     reference.key.width, reference.key.height, reference.samples, reference.seconds);
     text += fmt::format("rays: {} and {} to lights\n", reference.counts.rays, reference.counts.shadow_rays);
     if (reference.samples > 1)

@@ -11,6 +11,7 @@
 #include "meshes/mesh.h"
 #include "scenes/summary.h"
 #include "trace/error.h"
+#include "trace/text.h"
 
 namespace regather::imports {
 namespace {
@@ -80,9 +81,10 @@ std::string_view kind_of_file(const std::filesystem::path& file) {
 
 std::string summary_of(const ImportedScene& scene) {
     return fmt::format(
-        "{}: {} triangles; {} materials ({}); {} lights; {} frames\norigin   {}\nlicence  {}\n", scene.name,
-        scene.triangle_count(), scene.materials.size(), scenes::kinds_of(scene.materials),
-        scene.lights.size(), scene.frames, scene.origin, scene.licence);
+        "{}: {} triangles; {} materials ({}); {} lights; {} frames\norigin   {}\nlicence  {}\n",
+        trace::shown(scene.name), scene.triangle_count(), scene.materials.size(),
+        scenes::kinds_of(scene.materials), scene.lights.size(), scene.frames, trace::shown(scene.origin, 300),
+        trace::shown(scene.licence, 300));
 }
 
 }  // namespace regather::imports

@@ -15,6 +15,7 @@
 #include "trace/error.h"
 #include "trace/file.h"
 #include "trace/json.h"
+#include "trace/text.h"
 
 namespace regather::imports {
 
@@ -312,18 +313,19 @@ void check_scene_folder(const fs::path& folder, bool force) {
         throw UsageError("found an empty folder name, expected a folder to write the scene to");
     if (!fs::exists(fs::symlink_status(target, error))) return;
     if (!fs::is_directory(fs::symlink_status(target, error)))
-        throw UsageError(
-            fmt::format("{}: found a file, expected a folder to write the scene to", target.string()));
+        throw UsageError(fmt::format("{}: found a file, expected a folder to write the scene to",
+                                     trace::shown(target.string(), trace::most_shown_path)));
     if (fs::is_empty(target, error)) return;
     if (!force)
-        throw UsageError(fmt::format(
-            "{}: found a folder that is not empty, expected another one (or --force)", target.string()));
+        throw UsageError(
+            fmt::format("{}: found a folder that is not empty, expected another one (or --force)",
+                        trace::shown(target.string(), trace::most_shown_path)));
     for (const fs::directory_entry& entry : fs::directory_iterator(target)) {
         const std::string name = entry.path().filename().string();
         if (name != "scene.json" && name != "meshes")
             throw UsageError(
                 fmt::format("{}: found {}, which is not of an imported scene, expected a folder that may go",
-                            target.string(), name));
+                            trace::shown(target.string(), trace::most_shown_path), trace::in_quotes(name)));
     }
 }
 

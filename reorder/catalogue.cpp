@@ -14,6 +14,7 @@
 #include "reorder/shared_library.h"
 #include "reorder/tiled.h"
 #include "trace/error.h"
+#include "trace/text.h"
 #include "trace/word.h"
 
 namespace regather::reorder {
@@ -146,8 +147,9 @@ ParsedOrdering parse_ordering(std::string_view spec) {
     if (entry == std::end(entries)) {
         std::vector<std::string_view> names;
         for (const Entry& known : entries) names.push_back(known.name);
-        throw trace::UsageError(fmt::format("unknown ordering \"{}\"; nearest: {}; known: {}", name,
-                                            trace::nearest_words(name, names).front(), trace::listed(names)));
+        throw trace::UsageError(fmt::format("unknown ordering {}; nearest: {}; known: {}",
+                                            trace::in_quotes(name), trace::nearest_words(name, names).front(),
+                                            trace::listed(names)));
     }
     Parameters parameters(name, entry->parameters, text);
     ParsedOrdering parsed;

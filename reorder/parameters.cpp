@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "trace/error.h"
+#include "trace/text.h"
 #include "trace/word.h"
 
 namespace regather::reorder {
@@ -35,12 +36,13 @@ Parameters::Parameters(std::string_view ordering, std::span<const Parameter> kno
         const std::string_view name = item.substr(0, equals);
         const std::vector<std::string_view> names = names_of(known);
         if (names.empty())
-            throw trace::UsageError(fmt::format("{}: parameter \"{}\" found, it takes none", ordering, item));
+            throw trace::UsageError(
+                fmt::format("{}: parameter {} found, it takes none", ordering, trace::in_quotes(item)));
         const auto found = std::find(names.begin(), names.end(), name);
         if (found == names.end())
-            throw trace::UsageError(fmt::format("{}: unknown parameter \"{}\"; nearest: {}; known: {}",
-                                                ordering, name, trace::nearest_words(name, names).front(),
-                                                trace::listed(names)));
+            throw trace::UsageError(fmt::format(
+                "{}: unknown parameter {}; nearest: {}; known: {}", ordering, trace::in_quotes(name),
+                trace::nearest_words(name, names).front(), trace::listed(names)));
         const auto index = static_cast<std::size_t>(found - names.begin());
         if (set[index])
             throw trace::UsageError(fmt::format("{}: parameter {} is given twice", ordering, name));
@@ -73,8 +75,8 @@ std::optional<std::uint64_t> Parameters::given(std::string_view name) const {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     const bool one_spelling = text == "0" || text.front() != '0';  // equal orderings have equal specs
     if (error != std::errc{} || end != text.data() + text.size() || !one_spelling)
-        throw trace::UsageError(
-            fmt::format("{}: {} is \"{}\", expected a whole number below 2^64", ordering_, name, text));
+        throw trace::UsageError(fmt::format("{}: {} is {}, expected a whole number below 2^64", ordering_,
+                                            name, trace::in_quotes(text)));
     return number;
 }
 
@@ -103,10 +105,10 @@ std::uint32_t Parameters::count_or(std::string_view name, std::uint32_t fallback
 std::size_t Parameters::choice(std::string_view name, std::initializer_list<std::string_view> words) const {
     const auto found = std::find(words.begin(), words.end(), std::string_view(value(name)));
     if (found == words.end())
-        throw trace::UsageError(
-            fmt::format("{}: {} is \"{}\"; nearest: {}; known: {}", ordering_, name, value(name),
-                        trace::nearest_words(value(name), {words.begin(), words.size()}).front(),
-                        trace::listed({words.begin(), words.size()})));
+        throw trace::UsageError(fmt::format(
+            "{}: {} is {}; nearest: {}; known: {}", ordering_, name, trace::in_quotes(value(name)),
+            trace::nearest_words(value(name), {words.begin(), words.size()}).front(),
+            trace::listed({words.begin(), words.size()})));
     return static_cast<std::size_t>(found - words.begin());
 }
 

@@ -9,12 +9,13 @@
 #include "reorder/plugin.h"
 #include "trace/error.h"
 #include "trace/file.h"
+#include "trace/text.h"
 
 namespace regather::reorder {
 namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why) {
-    throw trace::UsageError(fmt::format("{}: {}", path.string(), why));
+    throw trace::UsageError(fmt::format("{}: {}", trace::shown(path.string(), trace::most_shown_path), why));
 }
 
 template <class Part>
@@ -26,7 +27,9 @@ bool read_at(std::string_view bytes, std::uint64_t place, Part& part) {
 
 /// The loader maps segments without looking at the file's length: a truncated library would end the process.
 void check_segments(const std::filesystem::path& path) {
-    if (!std::filesystem::is_regular_file(path)) refuse(path, "no such file; expected a shared library");
+    std::error_code error;  // of a path that is too long
+    if (!std::filesystem::is_regular_file(path, error))
+        refuse(path, "no such file; expected a shared library");
     const std::string bytes = trace::read_file(path);
     Elf64_Ehdr header{};
     if (!read_at(bytes, 0, header) || !bytes.starts_with(ELFMAG) || header.e_phentsize != sizeof(Elf64_Phdr))
@@ -82,7 +85,8 @@ SharedLibrary::SharedLibrary(const std::filesystem::path& path, std::string para
     functions_->library.reset(dlopen(std::filesystem::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL));
     if (!functions_->library) {
         const char* why = dlerror();
-        refuse(path, fmt::format("cannot be loaded: {}", why ? why : "unknown reason"));
+        refuse(path, fmt::format("cannot be loaded: {}",
+                                 why ? trace::shown(why, trace::most_shown_path) : "unknown reason"));
     }
     const std::uint32_t abi =
         functions_->require<decltype(&regather_plugin_abi)>(path, "regather_plugin_abi")();
@@ -118,8 +122,8 @@ Cost SharedLibrary::assign_keys(const Workload& work, std::uint64_t onchip_bytes
         .bounds_max = {box.max.x, box.max.y, box.max.z},
     };
     if (const int status = functions_->assign_keys(&given, parameters_.c_str(), keys.data()); status != 0)
-        refuse(path_, fmt::format("ordering {} refused with status {} (parameters \"{}\", {} queries)", name_,
-                                  status, parameters_, keys.size()));
+        refuse(path_, fmt::format("ordering {} refused with status {} (parameters {}, {} queries)", name_,
+                                  status, trace::in_quotes(parameters_), keys.size()));
     regather_cost_counts counts{};
     if (functions_->cost) functions_->cost(&given, parameters_.c_str(), onchip_bytes, &counts);
     return {.keys = counts.keys,

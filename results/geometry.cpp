@@ -9,6 +9,7 @@
 
 #include "trace/error.h"
 #include "trace/size.h"
+#include "trace/text.h"
 
 namespace regather::results {
 namespace {
@@ -51,8 +52,8 @@ Geometry parse_geometry(std::string_view text) {
         const auto ways = last == "full" ? std::optional<std::uint64_t>(0) : parse_size(last);
         if (size && line && ways) return {*size, *line, *ways};
     }
-    throw trace::UsageError(
-        fmt::format("cache \"{}\": expected SIZE:LINE:WAYS, for example 128K:128:8 or 1M:64:full", text));
+    throw trace::UsageError(fmt::format(
+        "cache {}: expected SIZE:LINE:WAYS, for example 128K:128:8 or 1M:64:full", trace::in_quotes(text)));
 }
 
 std::string geometry_text(const Geometry& geometry) {

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "results/csv.h"
+#include "trace/text.h"
 
 namespace regather::results {
 namespace {
@@ -54,6 +55,19 @@ std::vector<std::string> names_of(const Table& table) {
     return names;
 }
 
+/// As a terminal may show it: foreign text stands in cells, titles and notes.
+Table on_lines(const Table& table) {
+    constexpr std::size_t most_cell = 200, most_line = 1000;  // [bytes]
+    Table out(table.heads());
+    out.title = trace::shown(table.title, most_line);
+    for (std::vector<std::string> cells : table.lines()) {
+        for (std::string& cell : cells) cell = trace::shown(cell, most_cell);
+        out.add(std::move(cells));
+    }
+    for (const std::string& note : table.notes) out.notes.push_back(trace::shown(note, most_line));
+    return out;
+}
+
 }  // namespace
 
 void Table::add(std::vector<std::string> cells) {
@@ -70,7 +84,8 @@ std::vector<bool> Table::shown() const {
     return out;
 }
 
-std::string text_of(const Table& table, std::size_t widest) {
+std::string text_of(const Table& bytes, std::size_t widest) {
+    const Table table = on_lines(bytes);
     const std::vector<std::size_t> widths = widths_of(table, widest);
     std::string out = table.title.empty() ? "" : table.title + '\n';
     out += line_of(table, names_of(table), widths);

@@ -98,8 +98,8 @@ Scene load_scene(std::string_view name_or_path) {
                 "scene: found {}, expected {} or a JSON file (embedded scenes: {})", trace::in_quotes(file),
                 trace::alternatives(trace::nearest_words(file, names)), trace::listed(names)));
         throw DataError(
-            fmt::format("{}: found no file, expected a JSON scene or one of the embedded scenes {}", file,
-                        trace::listed(names)));
+            fmt::format("{}: found no file, expected a JSON scene or one of the embedded scenes {}",
+                        trace::shown(file, trace::most_shown_path), trace::listed(names)));
     }
     return parse_scene(trace::read_file(path, most_scene_bytes), file, path.parent_path());
 }

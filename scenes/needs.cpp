@@ -8,6 +8,7 @@
 
 #include "scenes/keys.h"
 #include "trace/error.h"
+#include "trace/text.h"
 #include "trace/word.h"
 
 namespace regather::scenes {
@@ -92,8 +93,8 @@ void Needs::keep(const std::set<std::string>& parts) {
             std::vector<std::string_view> names;
             for (const Need* need : all)
                 if (need->can_be_kept) names.push_back(need->part);
-            throw trace::UsageError(
-                fmt::format("keep: found the unknown part '{}', expected {}", part, trace::listed(names)));
+            throw trace::UsageError(fmt::format("keep: found the unknown part '{}', expected {}",
+                                                trace::shown(part), trace::listed(names)));
         }
         if ((*found)->needed) continue;
         (*found)->reason = "Kept although it is not needed: " + (*found)->reason;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "trace/error.h"
+#include "trace/text.h"
 
 namespace regather::study {
 namespace {
@@ -48,7 +49,8 @@ const CaseGroup& case_group(std::string_view name) {
         if (group.name == name) return group;
         names += fmt::format("{}{}", names.empty() ? "" : ", ", group.name);
     }
-    throw trace::UsageError(fmt::format("group of cases: found \"{}\", expected one of {}", name, names));
+    throw trace::UsageError(
+        fmt::format("group of cases: found {}, expected one of {}", trace::in_quotes(name), names));
 }
 
 results::StabilityRow run_case(const CaseGroup& group, const Case& one, Effort effort) {

@@ -140,7 +140,7 @@ std::span<const ColumnEntry> column_table() {
 const ColumnEntry& column_entry(std::string_view name) {
     for (const ColumnEntry& entry : table)
         if (entry.name == name) return entry;
-    throw UsageError(fmt::format("no trace column is called '{}'", name));
+    throw UsageError(fmt::format("no trace column is called '{}'", shown(name)));
 }
 
 TraceWriter::TraceWriter(fs::path folder, bool force) : folder_(std::move(folder)), lock_(folder_) {
@@ -149,11 +149,12 @@ TraceWriter::TraceWriter(fs::path folder, bool force) : folder_(std::move(folder
     for (const auto& file : fs::directory_iterator(folder_))
         if (!known.contains(file.path().filename().string()))
             throw UsageError(fmt::format("{}: found '{}', expected an empty folder or an earlier trace",
-                                         folder_.string(), file.path().filename().string()));
+                                         shown(folder_.string(), most_shown_path),
+                                         shown(file.path().filename().string())));
     if (fs::exists(folder_ / "trace.json")) {
         if (!force)
-            throw UsageError(
-                fmt::format("{}: holds a finished trace; --force overwrites it", folder_.string()));
+            throw UsageError(fmt::format("{}: holds a finished trace; --force overwrites it",
+                                         shown(folder_.string(), most_shown_path)));
         fs::remove(folder_ / "trace.json");
     }
     for (const std::string& name : known) fs::remove(folder_ / name);
@@ -269,8 +270,8 @@ const MappedColumn& TraceReader::open(std::string_view name, const ColumnType& t
         std::string why = "it was not captured";
         for (const LeftOut& entry : info_.left_out)
             if (entry.what == name) why = entry.why;
-        throw DataError(
-            fmt::format("{}: found no such column ({}), expected {}", path.string(), why, type.readable));
+        throw DataError(fmt::format("{}: found no such column ({}), expected {}",
+                                    shown(path.string(), most_shown_path), shown(why, 200), type.readable));
     }
     const MappedColumn& column = mapped_.find(name)->second;
     if (verified_.contains(name)) return column;

@@ -6,6 +6,7 @@
 
 #include "trace/error.h"
 #include "trace/file.h"
+#include "trace/text.h"
 #include "trace/word.h"
 
 namespace regather::cachesim {
@@ -39,9 +40,10 @@ Machine load_machine(std::string_view name_or_path) {
     std::error_code error;
     if (is_name && !std::filesystem::exists(path, error))
         throw trace::UsageError(fmt::format(
-            "found the unknown machine '{}', expected {} or a file (known: {})", name_or_path,
+            "found the unknown machine '{}', expected {} or a file (known: {})", trace::shown(name_or_path),
             trace::alternatives(trace::nearest_words(name_or_path, names)), trace::listed(names)));
-    return parse_machine(trace::read_file(path, most_machine_bytes), path);
+    return parse_machine(trace::read_file(path, most_machine_bytes),
+                         trace::shown(path, trace::most_shown_path));
 }
 
 }  // namespace regather::cachesim

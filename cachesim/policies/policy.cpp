@@ -7,6 +7,7 @@
 #include <span>
 
 #include "trace/error.h"
+#include "trace/text.h"
 
 namespace regather::cachesim {
 
@@ -18,7 +19,8 @@ Choice parse(std::string_view field, std::string_view name, std::span<const std:
     if (found == names.end()) {
         std::string known;
         for (const std::string_view each : names) known.append(known.empty() ? "" : ", ").append(each);
-        throw trace::UsageError(fmt::format("{}: found '{}', expected one of: {}", field, name, known));
+        throw trace::UsageError(
+            fmt::format("{}: found '{}', expected one of: {}", field, trace::shown(name), known));
     }
     return static_cast<Choice>(found - names.begin());
 }

@@ -8,6 +8,7 @@
 #include "charts/lettering.h"
 #include "charts/series.h"
 #include "trace/error.h"
+#include "trace/text.h"
 
 namespace regather::charts {
 namespace {
@@ -34,8 +35,8 @@ double sum_of(const results::Row& row) {
     const std::uint64_t sum = *row.compulsory + *row.capacity + *row.conflict;
     if (row.set_sampling.value_or(1) == 1 && sum != *row.misses)
         throw trace::DataError(fmt::format(
-            "row of \"{}\": misses: found {}, expected {}, the sum of compulsory, capacity and conflict",
-            row.parameters.empty() ? row.ordering : row.parameters, *row.misses, sum));
+            "row of {}: misses: found {}, expected {}, the sum of compulsory, capacity and conflict",
+            trace::in_quotes(row.parameters.empty() ? row.ordering : row.parameters), *row.misses, sum));
     return static_cast<double>(sum);
 }
 

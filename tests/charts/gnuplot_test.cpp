@@ -45,6 +45,8 @@ TEST(Gnuplot, AStringShowsItselfWhateverItHolds) {
         EXPECT_EQ(run_gnuplot("set print '-'\nprint " + gnuplot_string(text) + "\n"), text + "\n");
     EXPECT_EQ(run_gnuplot("set print '-'\nprint " + gnuplot_string("''it's'") + "\n"), "’’it’s’\n");
     EXPECT_EQ(gnuplot_string("a\nexit\r\tb"), "'a exit  b'");
+    EXPECT_EQ(gnuplot_string("a\x1b[31m\xff\xc3\xa9\xef\xbf\xbf\x7f"),
+              "'a [31m\xef\xbf\xbd\xc3\xa9\xef\xbf\xbd '");
 }
 
 }  // namespace

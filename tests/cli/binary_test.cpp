@@ -70,6 +70,21 @@ TEST_F(Chart, DrawsTheRowsOfAReplay) {
     EXPECT_EQ(content(charts_ / "traffic-by-tile.png").substr(1, 3), "PNG");
 }
 
+TEST_F(Chart, ForeignTextLeavesThePictureWellFormed) {
+    std::string rows = content(csv_);
+    const std::string foreign = "\nb\x1b[31m\xff<x&,";
+    for (std::size_t at = 0; (at = rows.find("\nbox,", at)) != rows.npos; at += foreign.size())
+        rows.replace(at, 5, foreign);
+    write(csv_, rows);
+    expect_done(words({"--kind", "traffic-by-tile"}));
+    const std::string svg = content(charts_ / "traffic-by-tile.svg");
+    EXPECT_THAT(svg, HasSubstr("b [31m\xef\xbf\xbd&lt;x&amp;"));
+    EXPECT_EQ(std::count_if(svg.begin(), svg.end(),
+                            [](char c) { return c >= 0 && c < ' ' && c != '\n' && c != '\t' && c != '\r'; }),
+              0);
+    EXPECT_EQ(svg.find('\xff'), svg.npos);
+}
+
 TEST_F(Chart, WhatTheRowsDoNotAllowIsSaid) {
     // Without a kind it is no error that one cache size makes no chart over sizes.
     EXPECT_THAT(expect_done(words()).out, HasSubstr("traffic-by-cache: not drawn"));

@@ -111,5 +111,87 @@ TEST(Binary, ItsExitCodesAndOutputsAreThoseOfTheCommand) {
     EXPECT_EQ(bad.exit_code, bad_data);
 }
 
+/// This exit code, and one line without control characters that is not long, whatever was in the words.
+void expect_cut(int exit_code, const std::vector<std::string>& words) {
+    const Outcome outcome = regather(words);
+    EXPECT_EQ(outcome.exit_code, exit_code) << words.front() << ' ' << outcome.err.substr(0, 900);
+    EXPECT_LT(outcome.err.size(), 900u) << words.front();
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << words.front();
+    EXPECT_EQ(outcome.err.find('\x1b'), std::string::npos) << words.front();
+}
+
+TEST(Usage, AnOutputNobodyCanHaveIsWrongUsageAndCut) {
+    const std::string name = std::string(5000, 'x') + "\x1b[31m", trace = (captured_box() / "trace").string();
+    expect_cut(bad_usage, small_capture(name));
+    expect_cut(bad_usage, {"reference", "box", "-o", name});
+    expect_cut(bad_usage, {"replay", trace, "--order", "naive", "--csv", name + ".csv"});
+    expect_cut(bad_usage, {"race", trace, "--csv", name + ".csv"});
+    expect_cut(bad_usage,
+               {"cachesim", "none.din", "--size", "1K", "--line", "64", "--ways", "2", "--csv", name});
+    expect_cut(bad_usage, {"stability", "-o", name});
+    expect_cut(bad_usage, {"import", "mesh", "none.obj", "-o", name});
+    expect_cut(bad_usage, {"scenes", "--thumbnails", name + ".png"});
+    expect_cut(bad_usage, {"reference", "box", "-o", std::string(256, 'y')});
+    std::string deep;
+    while (deep.size() < 4096) deep += "folder/";
+    expect_cut(bad_usage, {"reference", "box", "-o", deep});
+}
+
+TEST(Usage, WhatIsReadIsCutInMessages) {
+    const std::string name = "\x1b[31m\n" + std::string(5000, 'x'),
+                      trace = (captured_box() / "trace").string();
+    expect_cut(bad_usage, {name});
+    expect_cut(bad_usage, {"info", name});
+    expect_cut(bad_data, {"info", name + ".json"});
+    expect_cut(bad_usage, {"import", name, "-o", "none"});
+    expect_cut(bad_usage, {"import", "mesh", name, "-o", "none"});
+    expect_cut(bad_usage, {"machines", name});
+    expect_cut(bad_data, {"machines", name + ".json"});
+    expect_cut(bad_usage, {"scenes", "--thumbnails", "none.png", name});
+    expect_cut(bad_usage, {"scenes", "box", name});
+    expect_cut(bad_usage, {"replay", trace, "--order", name});
+    expect_cut(bad_usage, {"replay", trace, "--order", name + ".so"});
+    expect_cut(bad_usage, {"race", trace, "--structure", name});
+    expect_cut(bad_usage, small_capture("none") + std::vector<std::string>{"--gather-order", name});
+    expect_cut(bad_usage, small_capture("none") + std::vector<std::string>{"--keep", name});
+    expect_cut(bad_usage, {"stability", "--only", name});
+    expect_cut(bad_data, {"cachesim", name, "--size", "1K", "--line", "64", "--ways", "2"});
+}
+
+TEST(Usage, AFolderIsNoAddressTrace) {
+    const Scratch scratch;
+    expect_refused(bad_data,
+                   {"cachesim", scratch.path().string(), "--size", "1K", "--line", "64", "--ways", "2"},
+                   {scratch.path().string() + ": found a folder, expected a file"});
+}
+
+TEST(Usage, TextOfATraceIsShownOnOneLineOfItsOwn) {
+    const Scratch scratch;
+    const std::filesystem::path trace = copied_trace(scratch);
+    std::string text = content(trace / "trace.json");
+    const std::string before = "\"scene\": \"box\"", why = "\"why\": \"";
+    text.replace(text.find(before), before.size(),
+                 "\"scene\": \"a\\u001b[31mb" + std::string(5000, 'x') + "\"");
+    text.replace(text.find(why), why.size(), why + "\\u001b]0;\\n");
+    write(trace / "trace.json", text);
+    const std::string out = expect_done({"info", trace.string()}).out;
+    EXPECT_THAT(out, HasSubstr("scene      a\\x1b[31mbxxx"));
+    EXPECT_THAT(out, HasSubstr(": \\x1b]0;\\n"));
+    EXPECT_EQ(out.find('\x1b'), std::string::npos);
+    EXPECT_EQ(out.find(std::string(100, 'x')), std::string::npos);
+}
+
+// Pixels and walks that do not fit are named with the trace's folder.
+TEST(Usage, AReplayNamesTheFileThatDoesNotFit) {
+    const Scratch scratch;
+    const std::filesystem::path trace = copied_trace(scratch);
+    std::string text = content(trace / "trace.json");
+    const std::string before = "\"image_height\": 16";
+    write(trace / "trace.json", text.replace(text.find(before), before.size(), "\"image_height\": 1"));
+    expect_refused(
+        bad_data, {"replay", trace.string(), "--order", "naive"},
+        {(trace / "query_pixel.npy").string() + ": row ", "expected less than 16 (16 x 1 pixels)"});
+}
+
 }  // namespace
 }  // namespace regather::cli

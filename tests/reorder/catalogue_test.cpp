@@ -63,6 +63,15 @@ TEST(Catalogue, NamesTheNearestAndAllKnown) {
     EXPECT_THAT(refusal("hilbrt"), AllOf(HasSubstr("unknown ordering \"hilbrt\"; nearest: hilbert;"),
                                          HasSubstr("direction-binned+hashed")));
     EXPECT_THAT(refusal(""), HasSubstr("unknown ordering \"\""));
+    for (const std::string& spec :
+         {std::string(200000, 'a'), "x\x1b[31m\n" + std::string(5000, 'a'),
+          "naive:" + std::string(5000, 'b') + "\x1b=1", "hilbert:" + std::string(5000, 'c') + "\x1b=1",
+          "hilbert:bits=\x1b" + std::string(5000, '1'), "tiled:rows=\x1b" + std::string(5000, 'r'),
+          std::string(5000, 'l') + "\x1b.so"}) {
+        const std::string message = refusal(spec);
+        EXPECT_LT(message.size(), 700u) << message;
+        EXPECT_EQ(message.find_first_of("\x1b\n"), message.npos) << message;
+    }
     EXPECT_EQ(refusal("hilbert:tyle=3"),
               "hilbert: unknown parameter \"tyle\"; nearest: tile; known: tile, bits");
     EXPECT_EQ(refusal("naive:tile=3"), "naive: parameter \"tile=3\" found, it takes none");
