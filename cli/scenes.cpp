@@ -141,7 +141,7 @@ void print_details(const std::string& name_or_path, const Console& console) {
 void add_scenes(Command& command) {
     struct Options {
         std::vector<std::string> names;
-        std::string thumbnails;
+        std::filesystem::path thumbnails;
         bool force = false;
     };
     auto options = std::make_shared<Options>();

@@ -176,7 +176,7 @@ TEST_F(AddressTraceTest, EmptyAndMissingFilesAreRefused) {
     EXPECT_THAT(refusal({folder_ / "none.npy"}), HasSubstr("none.npy: found No such file"));
     EXPECT_THAT(refusal({addresses({})}), HasSubstr("addresses.npy: found 0 records, expected at least 1"));
     std::filesystem::create_directory(folder_ / "sub");
-    EXPECT_THAT(refusal({folder_ / "sub"}), HasSubstr("sub: cannot read"));
+    EXPECT_THAT(refusal({folder_ / "sub"}), HasSubstr("sub: found a folder, expected a file"));
 }
 
 TEST_F(AddressTraceTest, ColumnsBesideDinTextAreAUsageError) {
