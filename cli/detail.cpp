@@ -16,6 +16,7 @@
 #include "results/geometry.h"
 #include "results/provenance.h"
 #include "trace/size.h"
+#include "trace/text.h"
 
 namespace regather::cli {
 namespace {
@@ -55,7 +56,7 @@ void run(const Options& options, const Console& console) {
     write(options.csv, detail.rows, trace, console);
     write(options.timeline, detail.slices, trace, console);
     for (std::size_t c = 0; c < caches.size(); ++c)
-        console.print("{}{} | {} queries | {} | on chip {}\n{}", c == 0 ? "" : "\n", scene,
+        console.print("{}{} | {} queries | {} | on chip {}\n{}", c == 0 ? "" : "\n", trace::shown(scene),
                       results::decimal_count(static_cast<double>(measurement.queries())),
                       cachesim::cache_text(caches[c]), options.onchip,
                       results::text_of(experiment::detail_table(detail.lines[c])));

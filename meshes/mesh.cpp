@@ -20,6 +20,10 @@ namespace {
 
 constexpr std::uintmax_t most_file_bytes = 1ull << 30;
 
+std::string shown(const std::filesystem::path& file) {
+    return trace::shown(file.string(), trace::most_shown_path);
+}
+
 bool is_file(const std::filesystem::path& path) {
     std::error_code error;
     return std::filesystem::is_regular_file(path, error);
@@ -29,8 +33,8 @@ std::string content_of(const std::filesystem::path& file) {
     std::error_code error;
     const std::uintmax_t bytes = std::filesystem::file_size(file, error);
     if (error || bytes > most_file_bytes)
-        throw DataError(error ? fmt::format("{}: found a file that cannot be read", file.string())
-                              : fmt::format("{}: found {} bytes, expected at most {}", file.string(), bytes,
+        throw DataError(error ? fmt::format("{}: found a file that cannot be read", shown(file))
+                              : fmt::format("{}: found {} bytes, expected at most {}", shown(file), bytes,
                                             most_file_bytes));
     return trace::read_file(file);
 }
@@ -81,9 +85,9 @@ Mesh read_mesh(const std::filesystem::path& file) {
     const std::optional<Format> format = format_of(file);
     if (!format)
         throw DataError(fmt::format("{}: found the extension {}, expected .obj, .ply, .gltf or .glb",
-                                    file.string(), trace::in_quotes(file.extension().string())));
+                                    shown(file), trace::in_quotes(file.extension().string())));
     if (!is_file(file))
-        throw DataError(fmt::format("{}: found no file, expected an OBJ, PLY or glTF mesh", file.string()));
+        throw DataError(fmt::format("{}: found no file, expected an OBJ, PLY or glTF mesh", shown(file)));
     const std::string bytes = content_of(file);
     const std::filesystem::path folder = file.parent_path();
     return parse_mesh(*format, {.bytes = bytes,

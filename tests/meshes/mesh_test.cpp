@@ -81,6 +81,19 @@ TEST_F(MeshFile, WhatIsNoRegularFileIsNotOpened) {
                 HasSubstr("found no file, expected an OBJ, PLY or glTF mesh"));
 }
 
+TEST_F(MeshFile, AVeryLongNameIsCut) {
+    for (const char* ending : {".obj", ".stl"}) {
+        std::string message;
+        try {
+            read_mesh("\x1b" + std::string(5000, 'x') + ending);
+        } catch (const trace::DataError& error) {
+            message = error.what();
+        }
+        EXPECT_THAT(message, ::testing::StartsWith("\\x1bxxx"));
+        EXPECT_LT(message.size(), 500u);
+    }
+}
+
 TEST_F(MeshFile, MissingForeignAndEmptyFilesAreRefused) {
     EXPECT_THAT(refused(folder_ / "none.obj"), HasSubstr("found no file, expected an OBJ, PLY or glTF mesh"));
     EXPECT_THAT(refused(write("a.stl", "solid")),
