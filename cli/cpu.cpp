@@ -14,9 +14,8 @@ namespace {
         __builtin_cpu_supports("fma"))
         return;
     const char* const line =
-        "regather: found a CPU without AVX2, BMI or FMA, expected x86-64-v3: any of Intel since Haswell "
-        "(2013), of AMD "
-        "since Zen (2017)\n";
+        "regather: found a CPU without AVX2, BMI or FMA, expected x86-64-v3: "
+        "any of Intel since Haswell (2013), of AMD since Zen (2017)\n";
     // Nothing of the library but the call itself.
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line, std::strlen(line));
     ::_exit(1);

@@ -84,8 +84,8 @@ std::vector<bool> Table::shown() const {
     return out;
 }
 
-std::string text_of(const Table& bytes, std::size_t widest) {
-    const Table table = on_lines(bytes);
+std::string text_of(const Table& of, std::size_t widest) {
+    const Table table = on_lines(of);
     const std::vector<std::size_t> widths = widths_of(table, widest);
     std::string out = table.title.empty() ? "" : table.title + '\n';
     out += line_of(table, names_of(table), widths);
