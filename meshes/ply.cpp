@@ -65,7 +65,7 @@ private:
     // `what`: "the property x", "a length".
     [[noreturn]] void fail_at(const PlyElement& element, std::uint64_t row, std::string_view what) const {
         fail_here(body_.found(),
-                  fmt::format("{} of {} {} of {}", what, element.name, row + 1, element.count));
+                  fmt::format("{} of {} {} of {}", what, trace::shown(element.name), row + 1, element.count));
     }
 
     const PlyElement* element(std::string_view name) const {
@@ -104,7 +104,8 @@ private:
         const auto values = static_cast<std::uint64_t>(*length);
         if (!body_.may_hold(values, *property.value))
             fail_here(fmt::format("a list of {} for {} bytes", values, body_.left().size()),
-                      fmt::format("what is there of {} {} of {}", element.name, row + 1, element.count));
+                      fmt::format("what is there of {} {} of {}", trace::shown(element.name), row + 1,
+                                  element.count));
         return values;
     }
 

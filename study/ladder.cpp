@@ -7,11 +7,19 @@
 #include "results/convergence_row.h"
 #include "results/csv.h"
 #include "trace/error.h"
+#include "trace/text.h"
 
 namespace regather::study {
 namespace {
 
 constexpr std::uint32_t most_photons = (1u << 31) - 1;
+
+constexpr std::size_t longest_name = 100;
+
+bool names_a_file(std::string_view name) {
+    return name.size() <= longest_name && trace::shown(name, longest_name) == name &&
+           name.find('/') == std::string_view::npos;
+}
 
 template <class Change>
 void add_steps(std::vector<Setting>& ladder, const Setting& base, std::initializer_list<double> steps,
@@ -92,11 +100,14 @@ std::vector<Setting> parse_ladder(std::string_view text, std::string_view file) 
             value = static_cast<std::uint32_t>(*cell);
         };
         if (row.ladder.empty()) refuse("ladder", "an empty cell", "a name");
+        if (!names_a_file(row.ladder))
+            refuse("ladder", trace::in_quotes(row.ladder),
+                   fmt::format("at most {} printable bytes without '/' (it names pictures)", longest_name));
         setting.ladder = row.ladder;
         if (row.mode == "direct")
             setting.mode = capture::Visualisation::direct;
         else if (!row.mode.empty() && row.mode != "final-gather")
-            refuse("mode", '"' + row.mode + '"', "final-gather or direct");
+            refuse("mode", trace::in_quotes(row.mode), "final-gather or direct");
         if (setting.mode == capture::Visualisation::direct) setting.gather_rays = 0;
         take("gather_rays", row.gather_rays, setting.gather_rays, 0, 1u << 20);
         take("photons", row.photons, setting.photons, 0, most_photons);

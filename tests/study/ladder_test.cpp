@@ -44,9 +44,20 @@ TEST(ParseLadder, EmptyCellsTakeTheDefaults) {
 }
 
 TEST(ParseLadder, RefusesWhatNoRendererCanDo) {
-    for (const char* text : {"ladder,k\nmine,0\n", "ladder,mode\nmine,fast\n", "ladder\n", "k\n5\n",
-                             "ladder,radius\nmine,0\n", "ladder,k\n,5\n"})
+    for (const char* text :
+         {"ladder,k\nmine,0\n", "ladder,mode\nmine,fast\n", "ladder\n", "k\n5\n", "ladder,radius\nmine,0\n",
+          "ladder,k\n,5\n", "ladder\n../mine\n", "ladder\n\"mi\nne\"\n"})
         EXPECT_THROW(parse_ladder(text, "l.csv"), trace::DataError) << text;
+}
+
+TEST(ParseLadder, ShowsAModeOfTwoLinesInOne) {
+    try {
+        parse_ladder("ladder,mode\nmine,\"fa\nst\"\n", "l.csv");
+        ADD_FAILURE() << "taken";
+    } catch (const trace::DataError& error) {
+        EXPECT_STREQ(error.what(),
+                     "l.csv: row 1, column mode: found \"fa\\nst\", expected final-gather or direct");
+    }
 }
 
 }  // namespace

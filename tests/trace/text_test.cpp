@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "trace/error.h"
+
 namespace regather::trace {
 namespace {
 
@@ -61,6 +63,13 @@ TEST(Text, LongTextIsCutBetweenCharacters) {
     EXPECT_EQ(shown("abcdefg", 6), "abcdef...");
     EXPECT_EQ(shown("abcd\xe2\x82\xac", 6), "abcd...");
     EXPECT_EQ(in_quotes(std::string(1000, 'x'), 4), "\"xxxx...\"");
+}
+
+TEST(Errors, AreOneLineWhateverAFileHolds) {
+    EXPECT_STREQ(DataError("a.ply: found \"x\ny\x01\"").what(), "a.ply: found \"x\\ny\\x01\"");
+    EXPECT_STREQ(UsageError("a\tb").what(), "a\\tb");
+    const std::string longer_than_a_shown_text(500, 'a');
+    EXPECT_EQ(DataError(longer_than_a_shown_text).what(), longer_than_a_shown_text);
 }
 
 }  // namespace
