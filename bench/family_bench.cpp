@@ -7,12 +7,12 @@
 #include <array>
 #include <vector>
 
-#include "bench/room.h"
+#include "bench/room_walks.h"
 #include "cachesim/cache.h"
 #include "cachesim/lru/lru_family.h"
 #include "replay/walk_lines.h"
 #include "replay/walk_store.h"
-#include "spatial/walk.h"
+#include "spatial/heap_walk.h"
 
 namespace {
 
@@ -31,13 +31,14 @@ struct Stream {
 const Stream& stream(std::size_t ordering) {
     static const std::array<Stream, 2> streams = [] {
         std::array<Stream, 2> all;
-        const replay::WalkStore walks(photon_count, room().recording.walk_bytes, room().recording.walks);
+        const replay::WalkStore walks = bench::walks();
+        const replay::Layout layout = bench::heap_20();
         for (std::size_t o = 0; o < 2; ++o) {
-            spatial::WalkDecoder decoder(photon_count);
-            replay::WalkLines lines({}, 128, photon_count);
+            spatial::HeapWalkDecoder decoder(photon_count);
+            replay::WalkLines lines(layout, 128);
             for (const std::uint32_t q : room().permutation(orderings[o])) {
                 all[o].start.push_back(all[o].lines.size());
-                const auto touches = lines.touches(decoder.decode(walks.walk(q)).slots);
+                const auto touches = lines.touches(decoder.decode(walks.walk(q)).elements);
                 all[o].lines.insert(all[o].lines.end(), touches.begin(), touches.end());
                 if (all[o].lines.size() > 20'000'000) break;
             }
@@ -112,7 +113,8 @@ void one_pass_first_touches(benchmark::State& state) {
     const Stream& of = stream(static_cast<std::size_t>(state.range(0)));
     cachesim::FamilyCounts counts;
     for (auto unused : state) {
-        replay::WalkLines lines({}, 128, photon_count);
+        const replay::Layout layout = bench::heap_20();
+        replay::WalkLines lines(layout, 128);
         cachesim::LruFamily caches(family(state.range(1)));
         for (std::size_t w = 0; w + 1 < of.start.size(); ++w) {
             const auto first =
@@ -133,7 +135,8 @@ void first_touches_only(benchmark::State& state) {
     const Stream& of = stream(static_cast<std::size_t>(state.range(0)));
     std::uint64_t sum = 0;
     for (auto unused : state) {
-        replay::WalkLines lines({}, 128, photon_count);
+        const replay::Layout layout = bench::heap_20();
+        replay::WalkLines lines(layout, 128);
         for (std::size_t w = 0; w + 1 < of.start.size(); ++w)
             sum += lines.first(std::span(of.lines).subspan(of.start[w], of.start[w + 1] - of.start[w]))
                        .lines.size();

@@ -22,8 +22,8 @@
 #include <vector>
 
 #include "bench/room.h"
-#include "spatial/nearest.h"
-#include "spatial/photon_buckets.h"
+#include "spatial/photons/nearest.h"
+#include "spatial/photons/photon_buckets.h"
 
 namespace {
 

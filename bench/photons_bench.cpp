@@ -4,7 +4,7 @@
 
 #include "capture/photon_pass.h"
 #include "scenes/loader.h"
-#include "spatial/photon_kd.h"
+#include "spatial/photons/photon_kd.h"
 
 namespace regather::bench {
 namespace {

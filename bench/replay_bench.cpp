@@ -9,18 +9,18 @@
 #include <cstdint>
 #include <vector>
 
-#include "bench/room.h"
+#include "bench/room_walks.h"
 #include "cachesim/cache.h"
 #include "cachesim/lines.h"
 #include "replay/replay.h"
-#include "spatial/nearest.h"
-#include "spatial/walk.h"
+#include "spatial/heap_walk.h"
+#include "spatial/photons/nearest.h"
 
 namespace {
 
 using namespace regather;
 
-using bench::k, bench::photon_count, bench::room;
+using bench::k, bench::room;
 
 constexpr std::array<const char*, 2> orderings{"naive", "hilbert"};
 
@@ -63,11 +63,14 @@ void search_again_and_simulate(benchmark::State& state) {
     const std::vector<std::uint32_t> order =
         room().permutation(orderings[static_cast<std::size_t>(state.range(0))]);
     const spatial::PhotonKd tree(room().heap);
-    const replay::WalkStore walks(photon_count, room().recording.walk_bytes, room().recording.walks);
+    const replay::WalkStore walks = bench::walks();
+    const replay::Layout layout = bench::heap_20();
     const std::array<cachesim::CacheConfig, 1> caches{};
     const replay::ReplayConfig config{{caches.begin(), caches.end()}, false};
     const std::uint64_t expected =
-        replay::replay(walks, {}, order, config, replay::count_revisits(walks, {}, config)).caches[0].misses;
+        replay::replay(walks, layout, order, config, replay::count_revisits(walks, layout, config))
+            .caches[0]
+            .misses;
     spatial::NearestSet found(k);
     for (auto unused : state) {
         Simulate simulate;
@@ -85,9 +88,10 @@ BENCHMARK(search_again_and_simulate)->Arg(0)->Arg(1)->Unit(benchmark::kMilliseco
 void decode(benchmark::State& state) {
     const std::vector<std::uint32_t> order =
         room().permutation(orderings[static_cast<std::size_t>(state.range(0))]);
-    const replay::WalkStore walks(photon_count, room().recording.walk_bytes, room().recording.walks);
+    const replay::WalkStore walks = bench::walks();
+    const replay::Layout layout = bench::heap_20();
     for (auto unused : state) {
-        const replay::Replayed replayed = replay::replay(walks, {}, order, {}, {});
+        const replay::Replayed replayed = replay::replay(walks, layout, order, {}, {});
         if (replayed.visited_nodes != room().recording.visited_nodes)
             state.SkipWithError("another number of nodes");
     }
@@ -100,13 +104,14 @@ BENCHMARK(decode)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 void replay_and_simulate(benchmark::State& state) {
     const std::vector<std::uint32_t> order =
         room().permutation(orderings[static_cast<std::size_t>(state.range(0))]);
-    const replay::WalkStore walks(photon_count, room().recording.walk_bytes, room().recording.walks);
+    const replay::WalkStore walks = bench::walks();
+    const replay::Layout layout = bench::heap_20();
     const std::array<cachesim::CacheConfig, 1> caches{};
     const replay::ReplayConfig config{{caches.begin(), caches.end()}, false};
-    const replay::Revisits revisits = replay::count_revisits(walks, {}, config);
+    const replay::Revisits revisits = replay::count_revisits(walks, layout, config);
     double accesses = 0;
     for (auto unused : state) {
-        const replay::Replayed replayed = replay::replay(walks, {}, order, config, revisits);
+        const replay::Replayed replayed = replay::replay(walks, layout, order, config, revisits);
         if (replayed.visited_nodes != room().recording.visited_nodes)
             state.SkipWithError("another number of nodes");
         accesses = static_cast<double>(replayed.caches[0].accesses);

@@ -9,7 +9,7 @@
 #include "capture/query_pass.h"
 #include "reorder/catalogue.h"
 #include "scenes/loader.h"
-#include "spatial/recording.h"
+#include "spatial/photons/recording.h"
 
 namespace regather::bench {
 

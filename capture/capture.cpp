@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "scenes/needs.h"
-#include "spatial/photon_kd.h"
+#include "spatial/photons/photon_kd.h"
 #include "trace/error.h"
 
 namespace regather::capture {

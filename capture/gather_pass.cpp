@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "spatial/nearest.h"
+#include "spatial/photons/nearest.h"
 #include "spatial/walk.h"
 
 namespace regather::capture {

@@ -9,7 +9,7 @@
 
 #include "capture/query_pass.h"
 #include "capture/radiance_estimate.h"
-#include "spatial/photon_kd.h"
+#include "spatial/photons/photon_kd.h"
 
 namespace regather::capture {
 

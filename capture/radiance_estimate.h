@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "capture/bsdf.h"
-#include "spatial/nearest.h"
-#include "spatial/photon_kd.h"
+#include "spatial/photons/nearest.h"
+#include "spatial/photons/photon_kd.h"
 
 namespace regather::capture {
 

@@ -11,6 +11,8 @@ constexpr Subcommand table[] = {
      add_reference},
     {"walk", "make a trace of your own photons and queries (.npy columns)", add_walk},
     {"replay", "put a trace's queries into orders; count misses and traffic", add_replay},
+    {"structures", "list the structures that a trace's queries can be searched in", add_structures},
+    {"layouts", "list the layouts that a replay can choose: where each node lies in memory", add_layouts},
     {"detail", "tell apart which data misses in a cache, why, and when", add_detail},
     {"heatmap", "bytes moved by each pixel, by ordering, as an image", add_heatmap},
     {"race", "search a trace's queries on this machine in other orders, timed", add_race},

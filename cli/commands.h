@@ -29,6 +29,8 @@ void add_heatmap(Command& command);
 void add_race(Command& command);
 void add_sampling(Command& command);
 void add_cachesim(Command& command);
+void add_layouts(Command& command);
+void add_structures(Command& command);
 void add_machines(Command& command);
 void add_chart(Command& command);
 void add_converge(Command& command);

@@ -22,7 +22,7 @@ namespace {
 
 struct Options {
     std::filesystem::path trace, csv;
-    std::vector<std::string> orders, caches{"128K:128:8"};
+    std::vector<std::string> orders, caches{"128K:128:8"}, layouts{"heap-20"};
     std::string onchip = "1M", machines;
     bool classes = false, buffers = false, force = false;
     std::uint32_t one_of = 1;
@@ -45,8 +45,8 @@ void run(const Options& options, const Console& console) {
     std::string csv, table;
     Progress progress(console);
     if (machines.empty()) {
-        const auto rows =
-            experiment::through_caches(measurement, orderings, caches, method, progress.listener());
+        const auto rows = experiment::through_caches(measurement, options.layouts, orderings, caches, method,
+                                                     progress.listener());
         csv = results::to_csv(rows);
         table = results::traffic_text(rows);
     } else {
@@ -77,6 +77,8 @@ void add_replay(Command& command) {
         .required();
     command.list("--cache", options->caches,
                  "caches as SIZE:LINE:WAYS, each a value or a list; WAYS may be full");
+    command.list("--layout", options->layouts,
+                 "where each node lies in memory, as ORDER-RECORD:parameter=value,...; see regather layouts");
     command.option(
         "--machine", options->machines,
         "in place of --cache: memory systems, by name (see regather machines) or file, with commas");
@@ -90,7 +92,7 @@ void add_replay(Command& command) {
     command.option("--onchip", options->onchip, "bytes that the chip can buffer");
     command.option("--csv", options->csv, "write the rows here, and X.json beside X.csv");
     command.flag("--force", options->force, "overwrite the CSV");
-    command.conflict("--machine", {"--cache", "--classes", "--buffers", "--sample", "--seed"});
+    command.conflict("--machine", {"--cache", "--layout", "--classes", "--buffers", "--sample", "--seed"});
     command.conflict("--sample", {"--classes", "--buffers"});
     command.needs("--seed", {"--sample"});
     command.needs("--force", {"--csv"});

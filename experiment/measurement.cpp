@@ -26,14 +26,25 @@ Orderings parse_orderings(std::span<const std::string> specs) {
 }
 
 Measurement::Measurement(trace::TraceReader& trace, const reorder::Reads& reads, std::uint64_t onchip_bytes)
-    : trace_(trace), walks_(trace), work_(workload(trace, reads)), onchip_bytes_(onchip_bytes) {}
+    : trace_(trace),
+      walks_(trace),
+      layout_(replay::heap_20(walks_.structure())),
+      work_(workload(trace, reads)),
+      onchip_bytes_(onchip_bytes) {}
+
+void Measurement::lay_out(replay::Layout layout) {
+    layout_ = std::move(layout);
+    revisits_.clear();
+    line_use_.clear();
+    compulsory_bytes.clear();
+}
 
 reorder::Ordered Measurement::order(const reorder::Ordering& ordering) const {
     return reorder::order(ordering, work_, onchip_bytes_);
 }
 
 void Measurement::find_compulsory(std::span<const std::uint32_t> line_sizes) {
-    const std::vector<bool> touched = replay::touched_nodes(walks_);
+    const std::vector<bool> touched = replay::touched_elements(walks_);
     for (const std::uint32_t line : line_sizes)
         compulsory_bytes[line] = replay::compulsory_bytes(touched, layout_, line);
 }
@@ -104,7 +115,7 @@ std::vector<results::Row> Measurement::rows(const reorder::ParsedOrdering& parse
         row.queries = ordered.permutation.size();
         row.accesses = traffic.accesses;
         row.raw_bytes = replayed.raw_bytes;
-        row.oracle_bytes = trace_.info().found_photons * layout_.used_bytes;
+        row.oracle_bytes = trace_.info().found_photons * sizeof(trace::Photon);
         if (const auto known = compulsory_bytes.find(traffic.config.line_bytes);
             known != compulsory_bytes.end())
             row.compulsory_bytes = known->second;

@@ -41,7 +41,9 @@ public:
 
     std::uint64_t queries() const { return walks_.queries(); }
     const replay::WalkStore& walks() const { return walks_; }
-    const replay::HeapLayout& layout() const { return layout_; }
+    const replay::Layout& layout() const { return layout_; }
+    /// Another layout; what was prepared and found for the one before is forgotten. heap-20 at first.
+    void lay_out(replay::Layout layout);
     reorder::Ordered order(const reorder::Ordering& ordering) const;
     /// What the ordering's buffers do in memory; `ordered` is its order().
     reorder::BufferUse buffer_use(const reorder::Ordering& ordering, const reorder::Ordered& ordered) const {
@@ -76,7 +78,7 @@ private:
 
     trace::TraceReader& trace_;
     replay::WalkStore walks_;
-    replay::HeapLayout layout_;
+    replay::Layout layout_;
     reorder::Workload work_;
     std::uint64_t onchip_bytes_;
     Method method_;

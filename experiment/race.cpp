@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "spatial/nearest.h"
-#include "spatial/photon_buckets.h"
+#include "spatial/photons/nearest.h"
+#include "spatial/photons/photon_buckets.h"
 #include "trace/median.h"
 
 namespace regather::experiment {

@@ -16,7 +16,10 @@
 
 namespace regather::experiment {
 
-enum class Structure { left_balanced, bucketed };  ///< spatial/nearest.h, spatial/photon_buckets.h
+enum class Structure {
+    left_balanced,
+    bucketed
+};  ///< spatial/photons/nearest.h, spatial/photons/photon_buckets.h
 inline constexpr Structure structures[] = {Structure::left_balanced, Structure::bucketed};
 std::string_view name(Structure structure);
 std::optional<Structure> structure_named(std::string_view word);

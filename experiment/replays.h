@@ -2,6 +2,7 @@
 // rows.
 #pragma once
 #include <span>
+#include <string>
 #include <vector>
 
 #include "cachesim/machines/machine.h"
@@ -12,9 +13,10 @@
 
 namespace regather::experiment {
 
-/// Ordering by ordering, cache by cache, with the compulsory traffic and, where naive is among them, the net
-/// benefit.
-std::vector<results::Row> through_caches(Measurement& measurement,
+/// Layout by layout, ordering by ordering, cache by cache, with the compulsory traffic and, where naive is
+/// among them, the net benefit. `layouts` are specs (replay/layouts/catalogue.h). Throws trace::UsageError as
+/// replay::make_layout(), and for a layout that is there twice.
+std::vector<results::Row> through_caches(Measurement& measurement, std::span<const std::string> layouts,
                                          std::span<const reorder::ParsedOrdering> orderings,
                                          std::span<const cachesim::CacheConfig> caches, const Method& method,
                                          const ProgressListener& progress);

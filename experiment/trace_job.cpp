@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "spatial/photon_kd.h"
-#include "spatial/recording.h"
+#include "spatial/photons/photon_kd.h"
+#include "spatial/photons/structures.h"
 #include "trace/error.h"
 #include "trace/folder.h"
 #include "trace/text.h"
@@ -76,6 +76,7 @@ std::uint32_t greatest_pixel(const fs::path& columns, const OptionalColumn<std::
 }  // namespace
 
 std::string run(const TraceJob& job, const ProgressListener& progress) {
+    const spatial::StructureSpec spec = spatial::parse_structure(job.structure);
     refuse_unknown_columns(job.columns);
     const trace::MappedColumn photon_positions(job.columns / "photon_position.npy",
                                                trace::column_type<Vec3>());
@@ -123,11 +124,14 @@ std::string run(const TraceJob& job, const ProgressListener& progress) {
 
     const float radius =
         job.radius > 0 ? static_cast<float>(job.radius) : std::numeric_limits<float>::infinity();
-    const spatial::PhotonKd tree(heap);
+    const auto search = spatial::build(spec, heap, job.k, radius);
+    search->store(writer);
+    info.structure = spec.text;
+    info.structure_version = spec.entry->version;
     constexpr std::uint64_t batch = 1 << 20;
     for (std::uint64_t first = 0; first < queries || first == 0; first += batch) {
         const auto points = positions.rows<Vec3>().subspan(first, std::min(batch, queries - first));
-        const spatial::Recording walks = spatial::record_walks(tree, points, job.k, radius);
+        const spatial::Recording walks = search->record(points, job.k, radius);
         writer.column("query_walk_bytes").append(std::span<const std::uint32_t>(walks.walk_bytes));
         writer.column("walk").append(std::span<const std::uint8_t>(walks.walks));
         info.found_photons += walks.found_photons;

@@ -16,11 +16,12 @@ struct TraceJob {
     std::uint32_t k = 100;         ///< Photons of a search.
     std::uint32_t width = 0;       ///< That query_pixel counts with [pixels]; 0: all in one row.
     double radius = 0;             ///< Of a search [units of the positions]; 0 or infinity: unlimited.
-    bool force = false;            ///< Overwrite a finished trace.
+    std::string structure{"left-balanced-kd"};  ///< What is searched: a spec of spatial/photons/structures.h.
+    bool force = false;                         ///< Overwrite a finished trace.
 };
 
 /// Returns figures and the folder, for people. Throws trace::DataError for a column that is missing, unknown,
-/// of another length or not finite; trace::UsageError as trace::TraceWriter.
+/// of another length or not finite; trace::UsageError as trace::TraceWriter and spatial::parse_structure().
 std::string run(const TraceJob& job, const ProgressListener& progress);
 
 }  // namespace regather::experiment

@@ -8,7 +8,7 @@
 
 #include "experiment/workload.h"
 #include "replay/verification.h"
-#include "spatial/photon_kd.h"
+#include "spatial/photons/photon_kd.h"
 #include "trace/error.h"
 #include "trace/text.h"
 

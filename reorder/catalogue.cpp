@@ -10,10 +10,10 @@
 #include "reorder/leaf_sorted.h"
 #include "reorder/naive.h"
 #include "reorder/random.h"
-#include "reorder/range.h"
 #include "reorder/shared_library.h"
 #include "reorder/tiled.h"
 #include "trace/error.h"
+#include "trace/range.h"
 #include "trace/text.h"
 #include "trace/word.h"
 
@@ -63,10 +63,10 @@ DirectionBinnedConfig direction_config(Parameters& given) {
     DirectionBinnedConfig config;
     config.tile = given.count("tile");
     config.bins = given.count("bins");
-    require_range("direction-binned", "bins", config.bins, 1, max_bins);  // its square is a default
+    trace::require_range("direction-binned", "bins", config.bins, 1, max_bins);  // its square is a default
     config.passes = given.count_or("passes", config.bins * config.bins);
-    require_range("direction-binned", "passes", config.passes, 1,
-                  config.bins * config.bins);  // 0 means all to the class
+    trace::require_range("direction-binned", "passes", config.passes, 1,
+                         config.bins * config.bins);  // 0 means all to the class
     config.state = given.choice("state", {"store", "recast"}) == 0 ? PixelState::store : PixelState::recast;
     return config;
 }

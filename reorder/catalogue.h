@@ -10,9 +10,11 @@
 #include <string_view>
 
 #include "reorder/ordering.h"
-#include "reorder/parameters.h"
+#include "trace/parameters.h"
 
 namespace regather::reorder {
+
+using trace::Parameter, trace::Parameters;
 
 struct Entry {
     std::string_view name;

@@ -29,8 +29,8 @@ std::string_view name_of(Curve curve) {
 
 CurveSorted::CurveSorted(const CurveSortedConfig& config) : config_(config) {
     require_tile(name_of(config.curve), config.tile);
-    require_range(name_of(config.curve), "bits", config.bits, 1,
-                  config.curve == Curve::swizzle ? max_swizzle_bits : max_curve_bits);
+    trace::require_range(name_of(config.curve), "bits", config.bits, 1,
+                         config.curve == Curve::swizzle ? max_swizzle_bits : max_curve_bits);
 }
 
 Cost CurveSorted::assign_keys(const Workload& work, std::uint64_t onchip_bytes,

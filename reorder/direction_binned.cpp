@@ -34,10 +34,10 @@ std::uint32_t direction_bin(Vec3 direction, std::uint32_t bins) {
 
 DirectionBinned::DirectionBinned(const DirectionBinnedConfig& config) : config_(config) {
     require_tile("direction-binned", config.tile);
-    require_range("direction-binned", "bins", config.bins, 1, max_bins);
+    trace::require_range("direction-binned", "bins", config.bins, 1, max_bins);
     if (config_.passes == 0) config_.passes = config_.bins * config_.bins;
-    require_range("direction-binned", "passes", config_.passes, 1,
-                  std::uint64_t{config_.bins} * config_.bins);
+    trace::require_range("direction-binned", "passes", config_.passes, 1,
+                         std::uint64_t{config_.bins} * config_.bins);
 }
 
 /// Counted over all tiles.

@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "reorder/cell.h"
-#include "reorder/range.h"
 #include "reorder/sort.h"
+#include "trace/range.h"
 
 namespace regather::reorder {
 namespace {
@@ -145,11 +145,11 @@ std::uint32_t bucket_of(std::uint32_t x, std::uint32_t y, std::uint32_t z, std::
 }
 
 Hashed::Hashed(const HashedConfig& config) : config_(config) {
-    require_range("hashed", "buckets", config.buckets, 1, max_slots);
-    require_range("hashed", "capacity", config.capacity, 1, max_slots);
-    require_range("hashed", "buckets x capacity", std::uint64_t{config.buckets} * config.capacity, 1,
-                  max_slots);
-    require_range("hashed", "cells", config.cells, 1, max_cells);
+    trace::require_range("hashed", "buckets", config.buckets, 1, max_slots);
+    trace::require_range("hashed", "capacity", config.capacity, 1, max_slots);
+    trace::require_range("hashed", "buckets x capacity", std::uint64_t{config.buckets} * config.capacity, 1,
+                         max_slots);
+    trace::require_range("hashed", "cells", config.cells, 1, max_cells);
 }
 
 std::uint64_t Hashed::buffer_bytes() const {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "reorder/ordering.h"
-#include "reorder/range.h"
+#include "trace/range.h"
 
 namespace regather::reorder {
 
@@ -39,7 +39,7 @@ private:
 
 /// Throws trace::UsageError unless 1 <= tile <= max_tile.
 inline void require_tile(std::string_view ordering, std::optional<std::uint32_t> tile) {
-    if (tile) require_range(ordering, "tile", *tile, 1, max_tile);
+    if (tile) trace::require_range(ordering, "tile", *tile, 1, max_tile);
 }
 
 }  // namespace regather::reorder

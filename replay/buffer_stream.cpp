@@ -48,10 +48,9 @@ std::uint64_t tiles_of(const reorder::PixelPasses& state) {
 
 }  // namespace
 
-std::uint64_t buffer_base(const HeapLayout& layout, std::uint32_t photons, std::uint32_t line_bytes) {
+std::uint64_t buffer_base(const Layout& layout, std::uint32_t line_bytes) {
     const std::uint64_t multiple = std::max<std::uint64_t>(line_bytes, BufferStream::alignment);
-    const std::uint64_t end = photons == 0 ? layout.base : layout.address(photons) + layout.stride_bytes;
-    return (end + multiple - 1) / multiple * multiple;
+    return (layout.end_byte() + multiple - 1) / multiple * multiple;
 }
 
 BufferStream::BufferStream(const reorder::BufferUse& use, std::span<const std::uint32_t> permutation)

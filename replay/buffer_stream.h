@@ -60,7 +60,7 @@ private:
     std::vector<cachesim::ByteAccess> ready_;
 };
 
-/// Where the buffers start, behind the photons: a multiple of the line size and of the alignment.
-std::uint64_t buffer_base(const HeapLayout& layout, std::uint32_t photons, std::uint32_t line_bytes);
+/// Where the buffers start, behind all elements: a multiple of the line size and of the alignment.
+std::uint64_t buffer_base(const Layout& layout, std::uint32_t line_bytes);
 
 }  // namespace regather::replay

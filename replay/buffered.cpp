@@ -17,10 +17,10 @@ using cachesim::Access, cachesim::Line, cachesim::LruCache;
 /// The caches of one line size, and the accesses on their way to them: stretches of one region and kind.
 class MixedStream {
 public:
-    MixedStream(const HeapLayout& layout, std::uint32_t photons, std::uint32_t line_bytes)
+    MixedStream(const Layout& layout, std::uint32_t line_bytes)
         : layout_(layout),
           shift_(std::countr_zero(line_bytes)),
-          base_(buffer_base(layout, photons, line_bytes)),
+          base_(buffer_base(layout, line_bytes)),
           recent_(most_sets, std::numeric_limits<std::uint64_t>::max()) {}
 
     void add_cache(LruCache& cache) {
@@ -29,9 +29,10 @@ public:
     }
     std::uint32_t line_bytes() const { return std::uint32_t{1} << shift_; }
 
-    void append(std::span<const std::uint32_t> slots) {
-        for (const std::uint32_t slot : slots)
-            append(layout_.address(slot), layout_.used_bytes, Access::read, trace::Region::photons);
+    void append(std::span<const std::uint32_t> elements) {
+        layout_.for_each(elements, [&](std::uint32_t, std::uint64_t address, std::uint32_t bytes) {
+            append(address, bytes, Access::read, trace::Region::photons);
+        });
         if (lines_.size() >= ready_lines) drain();
     }
     void append(std::span<const cachesim::ByteAccess> buffers) {
@@ -74,7 +75,7 @@ private:
         });
     }
 
-    const HeapLayout layout_;
+    const Layout& layout_;
     int shift_;
     std::uint64_t base_;
     std::vector<std::uint64_t> recent_;  // by set of the cache with the fewest: the line last used
@@ -86,7 +87,7 @@ private:
 
 }  // namespace
 
-std::vector<BufferedTraffic> replay_with_buffers(const WalkStore& walks, const HeapLayout& layout,
+std::vector<BufferedTraffic> replay_with_buffers(const WalkStore& walks, const Layout& layout,
                                                  std::span<const std::uint32_t> permutation,
                                                  const reorder::BufferUse& use,
                                                  std::span<const cachesim::CacheConfig> caches,
@@ -99,7 +100,7 @@ std::vector<BufferedTraffic> replay_with_buffers(const WalkStore& walks, const H
         simulated.emplace_back(config);
         std::size_t stream = 0;
         while (stream < streams.size() && streams[stream].line_bytes() != config.line_bytes) ++stream;
-        if (stream == streams.size()) streams.emplace_back(layout, walks.photons(), config.line_bytes);
+        if (stream == streams.size()) streams.emplace_back(layout, config.line_bytes);
         streams[stream].add_cache(simulated.back());
         stream_of.push_back(stream);
     }
@@ -109,9 +110,9 @@ std::vector<BufferedTraffic> replay_with_buffers(const WalkStore& walks, const H
         for (MixedStream& stream : streams) stream.append(accesses);
     };
     std::uint64_t r = 0;
-    run_walks(walks, permutation, progress, [&](std::span<const std::uint32_t> slots) {
+    run_walks(walks, permutation, progress, [&](std::span<const std::uint32_t> elements) {
         buffers.before(r++, into_streams);
-        for (MixedStream& stream : streams) stream.append(slots);
+        for (MixedStream& stream : streams) stream.append(elements);
     });
     buffers.finish(into_streams);
     for (MixedStream& stream : streams) stream.drain();

@@ -23,7 +23,7 @@ struct BufferedTraffic {
 /// A result for each cache, in the order asked for, as if it were alone; the counts are those of
 /// replay_in_detail(). Every cache is simulated by itself, so a family costs as many passes as it has caches.
 /// One thread; several replays of one store can run at once. Throws as replay() does.
-std::vector<BufferedTraffic> replay_with_buffers(const WalkStore& walks, const HeapLayout& layout,
+std::vector<BufferedTraffic> replay_with_buffers(const WalkStore& walks, const Layout& layout,
                                                  std::span<const std::uint32_t> permutation,
                                                  const reorder::BufferUse& use,
                                                  std::span<const cachesim::CacheConfig> caches,

@@ -9,6 +9,40 @@
 #include "trace/error.h"
 
 namespace regather::replay {
+namespace {
+
+/// The levels of each region of a structure, numbered.
+class Classes {
+public:
+    explicit Classes(const spatial::Structure& structure) : structure_(structure) {
+        for (const spatial::ElementRange& range : structure.ranges()) {
+            std::uint32_t levels = 0;
+            for (std::uint32_t e = range.first; e < range.first + range.count; ++e)
+                levels = std::max(levels, structure.level(e) + 1);
+            starts_.push_back(count());
+            for (std::uint32_t l = 0; l < levels; ++l) classes_.push_back({range.region, l});
+        }
+    }
+    std::uint32_t count() const { return static_cast<std::uint32_t>(classes_.size()); }
+    std::uint32_t of(std::uint32_t element) const {
+        std::size_t r = 0;
+        while (r + 1 < starts_.size() && element >= structure_.ranges()[r + 1].first) ++r;
+        return starts_[r] + structure_.level(element);
+    }
+    trace::Region region(std::uint32_t c) const { return classes_[c].region; }
+    std::uint32_t level(std::uint32_t c) const { return classes_[c].level; }
+
+private:
+    struct Class {
+        trace::Region region;
+        std::uint32_t level;
+    };
+    const spatial::Structure& structure_;
+    std::vector<std::uint32_t> starts_;  // by range: its first class
+    std::vector<Class> classes_;
+};
+
+}  // namespace
 
 cachesim::ClassStats Detail::sum(std::optional<trace::Region> region) const {
     cachesim::ClassStats sum;
@@ -24,16 +58,16 @@ std::uint64_t Detail::traffic_bytes(std::optional<trace::Region> region) const {
     return sum;
 }
 
-Detail replay_in_detail(const WalkStore& walks, const HeapLayout& layout,
+Detail replay_in_detail(const WalkStore& walks, const Layout& layout,
                         std::span<const std::uint32_t> permutation, const reorder::BufferUse& use,
                         const DetailConfig& config, const QueriesDone& progress) {
     if (config.slices == 0) throw trace::UsageError("slices: found 0, expected at least 1");
     const auto start = std::chrono::steady_clock::now();
-    const auto depths = static_cast<std::uint32_t>(std::bit_width(walks.photons()));
-    const std::uint32_t buffers = depths;  // the class after the last depth
-    cachesim::AttributedCache cache(config.cache, depths + 1);
+    const Classes classes(walks.structure());
+    const std::uint32_t buffers = classes.count();  // the class after the last level
+    cachesim::AttributedCache cache(config.cache, buffers + 1);
     BufferStream stream(use, permutation);
-    const std::uint64_t base = buffer_base(layout, walks.photons(), config.cache.line_bytes);
+    const std::uint64_t base = buffer_base(layout, config.cache.line_bytes);
     const BufferStream::Sink into_cache = [&](std::span<const cachesim::ByteAccess> accesses) {
         for (cachesim::ByteAccess access : accesses) {
             access.address += base;
@@ -52,11 +86,11 @@ Detail replay_in_detail(const WalkStore& walks, const HeapLayout& layout,
         before = now;
         first = r;
     };
-    run_walks(walks, permutation, progress, [&](std::span<const std::uint32_t> slots) {
+    run_walks(walks, permutation, progress, [&](std::span<const std::uint32_t> elements) {
         stream.before(r, into_cache);
-        for (const std::uint32_t slot : slots)
-            cache.access({layout.address(slot), layout.used_bytes, cachesim::Access::read},
-                         static_cast<std::uint32_t>(std::bit_width(slot)) - 1);
+        layout.for_each(elements, [&](std::uint32_t element, std::uint64_t address, std::uint32_t bytes) {
+            cache.access({address, bytes, cachesim::Access::read}, classes.of(element));
+        });
         if (++r == queries) stream.finish(into_cache);
         if (r == (detail.slices.size() + 1) * queries / slices) end_slice();
     });
@@ -64,9 +98,9 @@ Detail replay_in_detail(const WalkStore& walks, const HeapLayout& layout,
     cache.flush();
 
     const std::span<const cachesim::ClassStats> stats = cache.stats();
-    for (std::uint32_t depth = 0; depth < depths; ++depth)
+    for (std::uint32_t c = 0; c < buffers; ++c)
         detail.parts.push_back(
-            {trace::Region::photons, depth, stats[depth], cache.traffic_bytes(stats[depth])});
+            {classes.region(c), classes.level(c), stats[c], cache.traffic_bytes(stats[c])});
     detail.parts.push_back(
         {trace::Region::reorder_buffer, {}, stats[buffers], cache.traffic_bytes(stats[buffers])});
     detail.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

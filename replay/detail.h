@@ -21,10 +21,10 @@ struct DetailConfig {
     std::uint64_t slices = 200;  ///< Of the run; no more than there are queries.
 };
 
-/// The nodes at one depth, or all of a region that is no tree.
+/// The elements of a region at one level, or all of a region that belongs to no structure.
 struct DetailPart {
     trace::Region region = trace::Region::photons;
-    std::optional<std::uint32_t> depth;  ///< 0 at the root.
+    std::optional<std::uint32_t> depth;  ///< The level: 0 at the root.
     cachesim::ClassStats stats;
     std::uint64_t traffic_bytes = 0;
 };
@@ -36,7 +36,8 @@ struct DetailSlice {
 };
 
 struct Detail {
-    std::vector<DetailPart> parts;  ///< Every depth of the tree, then the reorder buffers.
+    std::vector<DetailPart>
+        parts;  ///< Every level of every region of the structure, then the reorder buffers.
     std::vector<DetailSlice> slices;
     double seconds = 0;
 
@@ -47,7 +48,7 @@ struct Detail {
 
 /// Runs the queries of `permutation` and, in step with them, the buffers' accesses, at addresses behind the
 /// photons. An empty `use`, or one that is not known, makes none. One thread. Throws as replay() does.
-Detail replay_in_detail(const WalkStore& walks, const HeapLayout& layout,
+Detail replay_in_detail(const WalkStore& walks, const Layout& layout,
                         std::span<const std::uint32_t> permutation, const reorder::BufferUse& use,
                         const DetailConfig& config, const QueriesDone& progress = {});
 

@@ -8,10 +8,10 @@
 
 namespace regather::replay {
 
-/// The nodes' bytes that the queries of `permutation` visit, read in that order by each of `systems` as if it
-/// were alone, and charged to Region::photons. Systems run side by side on the threads of oneTBB. Returns the
-/// visited nodes. Throws trace::DataError with the query's number when a walk does not fit its tree.
-std::uint64_t replay_levels(const WalkStore& walks, const HeapLayout& layout,
+/// What the queries of `permutation` visit, read in that order by each of `systems` as if it were alone, and
+/// charged to the elements' regions. Systems run side by side on the threads of oneTBB. Returns the
+/// visited elements. Throws trace::DataError with the query's number when a walk does not fit its structure.
+std::uint64_t replay_levels(const WalkStore& walks, const Layout& layout,
                             std::span<const std::uint32_t> permutation,
                             std::span<cachesim::Hierarchy> systems, const QueriesDone& progress = {});
 

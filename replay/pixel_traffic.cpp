@@ -8,7 +8,7 @@
 
 namespace regather::replay {
 
-std::vector<std::uint64_t> pixel_traffic(const WalkStore& walks, const HeapLayout& layout,
+std::vector<std::uint64_t> pixel_traffic(const WalkStore& walks, const Layout& layout,
                                          std::span<const std::uint32_t> permutation,
                                          std::span<const std::uint32_t> query_pixel, std::uint64_t pixels,
                                          const cachesim::CacheConfig& config, const QueriesDone& progress) {
@@ -17,11 +17,11 @@ std::vector<std::uint64_t> pixel_traffic(const WalkStore& walks, const HeapLayou
             throw trace::DataError(
                 fmt::format("query_pixel: found {}, expected a pixel below {}", pixel, pixels));
     cachesim::LruCache cache(config);
-    WalkLines lines(layout, config.line_bytes, walks.photons());
+    WalkLines lines(layout, config.line_bytes);
     std::vector<std::uint64_t> bytes(pixels);
     std::uint64_t r = 0, before = 0;
-    run_walks(walks, permutation, progress, [&](std::span<const std::uint32_t> slots) {
-        cache.access(lines.touches(slots), trace::Region::photons);
+    run_walks(walks, permutation, progress, [&](std::span<const std::uint32_t> elements) {
+        cache.access(lines.touches(elements), trace::Region::photons);
         const std::uint64_t now = cache.traffic_bytes();
         bytes[query_pixel[permutation[r++]]] += now - before;
         before = now;

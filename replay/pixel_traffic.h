@@ -15,7 +15,7 @@ namespace regather::replay {
 /// Bytes fetched by pixel: misses x line size, cache empty at first. `query_pixel[q]` < `pixels` is the pixel
 /// of query q. The sum is the traffic that replay() tells of the same order and cache. One thread. Throws
 /// trace::DataError for a pixel outside the image, and as replay() does.
-std::vector<std::uint64_t> pixel_traffic(const WalkStore& walks, const HeapLayout& layout,
+std::vector<std::uint64_t> pixel_traffic(const WalkStore& walks, const Layout& layout,
                                          std::span<const std::uint32_t> permutation,
                                          std::span<const std::uint32_t> query_pixel, std::uint64_t pixels,
                                          const cachesim::CacheConfig& config,

@@ -67,15 +67,14 @@ std::map<std::uint32_t, FamilyConfig> families(const ReplayConfig& config) {
 /// The caches of one line size on their way through a replay.
 class LineSize {
 public:
-    LineSize(const HeapLayout& layout, std::uint32_t line_bytes, std::uint32_t photons)
-        : lines_(layout, line_bytes, photons) {}
+    LineSize(const Layout& layout, std::uint32_t line_bytes) : lines_(layout, line_bytes) {}
 
     std::uint32_t line_bytes() const { return lines_.line_bytes(); }
     void add_family(const FamilyConfig& config) { family_.emplace(config); }
     void add_cache(const CacheConfig& config) { alone_.emplace_back(config); }
 
-    void visit(std::span<const std::uint32_t> slots) {
-        const std::span<const cachesim::Line> touches = lines_.touches(slots);
+    void visit(std::span<const std::uint32_t> elements) {
+        const std::span<const cachesim::Line> touches = lines_.touches(elements);
         accesses_ += touches.size();
         for (cachesim::LruCache& cache : alone_) cache.access(touches, trace::Region::photons);
         if (!family_) return;
@@ -137,7 +136,7 @@ bool family_serves(const CacheConfig& config) {
            (config.ways <= max_family_ways && config.sets() <= max_family_sets);
 }
 
-Revisits count_revisits(const WalkStore& walks, const HeapLayout& layout, const ReplayConfig& config,
+Revisits count_revisits(const WalkStore& walks, const Layout& layout, const ReplayConfig& config,
                         const QueriesDone& progress) {
     const std::map<std::uint32_t, FamilyConfig> by_line = families(config);
     struct Part {
@@ -147,15 +146,15 @@ Revisits count_revisits(const WalkStore& walks, const HeapLayout& layout, const 
     tbb::enumerable_thread_specific<Part> parts([&] {
         Part part;
         for (const auto& [line_bytes, family] : by_line) {
-            part.lines.emplace_back(layout, line_bytes, walks.photons());
+            part.lines.emplace_back(layout, line_bytes);
             part.families.emplace_back(family);
         }
         return part;
     });
     if (by_line.empty()) return {};
-    run_all_walks(walks, parts, progress, [](Part& part, std::span<const std::uint32_t> slots) {
+    run_all_walks(walks, parts, progress, [](Part& part, std::span<const std::uint32_t> elements) {
         for (std::size_t f = 0; f < part.families.size(); ++f)
-            part.families[f].revisit(part.lines[f].touches(slots));
+            part.families[f].revisit(part.lines[f].touches(elements));
     });
     Revisits sum;
     std::size_t f = 0;
@@ -183,7 +182,7 @@ bool serve(const Revisits& revisits, const ReplayConfig& config) {
     return true;
 }
 
-Replayed replay(const WalkStore& walks, const HeapLayout& layout, std::span<const std::uint32_t> permutation,
+Replayed replay(const WalkStore& walks, const Layout& layout, std::span<const std::uint32_t> permutation,
                 const ReplayConfig& config, const Revisits& revisits, const QueriesDone& progress) {
     assert(permutation.size() == walks.queries());
     const auto start = std::chrono::steady_clock::now();
@@ -191,44 +190,46 @@ Replayed replay(const WalkStore& walks, const HeapLayout& layout, std::span<cons
     const auto size_of = [&](std::uint32_t line_bytes) -> LineSize& {
         for (LineSize& size : sizes)
             if (size.line_bytes() == line_bytes) return size;
-        return sizes.emplace_back(layout, line_bytes, walks.photons());
+        return sizes.emplace_back(layout, line_bytes);
     };
     for (const auto& [line_bytes, family] : families(config)) size_of(line_bytes).add_family(family);
     for (const CacheConfig& cache : config.caches)
         if (alone(cache, config)) size_of(cache.line_bytes).add_cache(cache);
 
     Replayed result;
-    result.visited_nodes = run_walks(walks, permutation, progress, [&](std::span<const std::uint32_t> slots) {
-        for (LineSize& size : sizes) size.visit(slots);
-    });
-    result.raw_bytes = result.visited_nodes * layout.used_bytes;
+    result.visited_nodes =
+        run_walks(walks, permutation, progress, [&](std::span<const std::uint32_t> elements) {
+            result.raw_bytes += layout.bytes(elements);
+            for (LineSize& size : sizes) size.visit(elements);
+        });
     for (const CacheConfig& cache : config.caches)
         result.caches.push_back(size_of(cache.line_bytes).traffic(cache, config, revisits));
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
 }
 
-std::vector<bool> touched_nodes(const WalkStore& walks) {
-    const std::size_t nodes = std::size_t{walks.photons()} + 1;
-    tbb::enumerable_thread_specific<std::vector<bool>> parts([&] { return std::vector<bool>(nodes); });
-    run_all_walks(walks, parts, {}, [](std::vector<bool>& touched, std::span<const std::uint32_t> slots) {
-        for (const std::uint32_t slot : slots) touched[slot] = true;
+std::vector<bool> touched_elements(const WalkStore& walks) {
+    const std::size_t elements = walks.structure().end();
+    tbb::enumerable_thread_specific<std::vector<bool>> parts([&] { return std::vector<bool>(elements); });
+    run_all_walks(walks, parts, {}, [](std::vector<bool>& touched, std::span<const std::uint32_t> visited) {
+        for (const std::uint32_t element : visited) touched[element] = true;
     });
-    std::vector<bool> touched(nodes);
+    std::vector<bool> touched(elements);
     for (const std::vector<bool>& part : parts)
-        for (std::size_t s = 0; s < nodes; ++s)
-            if (part[s]) touched[s] = true;
+        for (std::size_t e = 0; e < elements; ++e)
+            if (part[e]) touched[e] = true;
     return touched;
 }
 
-std::uint64_t compulsory_bytes(const std::vector<bool>& touched, const HeapLayout& layout,
+std::uint64_t compulsory_bytes(const std::vector<bool>& touched, const Layout& layout,
                                std::uint32_t line_bytes) {
     cachesim::DistinctLines distinct;
     std::vector<cachesim::Line> lines;
-    for (std::uint32_t slot = 1; slot < touched.size(); ++slot) {
-        if (!touched[slot]) continue;
+    for (std::uint32_t element = 0; element < touched.size(); ++element) {
+        if (!touched[element]) continue;
+        const Extent extent = layout.extent(element);
         lines.clear();
-        cachesim::append_lines(lines, layout.address(slot), layout.used_bytes, line_bytes);
+        cachesim::append_lines(lines, extent.address, extent.bytes, line_bytes);
         distinct.add(lines);
     }
     return distinct.count() * line_bytes;

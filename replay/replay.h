@@ -1,5 +1,5 @@
-// replay/replay.h -- runs recorded walks in an order: walks -> nodes -> bytes -> lines -> caches. Nothing is
-// searched.
+// replay/replay.h -- runs recorded walks in an order: walks -> elements -> bytes -> lines -> caches. Nothing
+// is searched.
 //
 // All LRU caches of one line size come from one pass (cachesim/lru/lru_family.h), and of a walk's touches
 // only the first of each line are simulated for an order: how deep the others lie does not depend on what ran
@@ -38,7 +38,7 @@ struct SampleError {
 /// What went through one cache.
 struct CacheTraffic {
     cachesim::CacheConfig config;
-    std::uint64_t accesses = 0;       ///< Line accesses; a node on two lines makes two.
+    std::uint64_t accesses = 0;       ///< Line accesses; an element on two lines makes two.
     std::uint64_t misses = 0;         ///< An estimate when there is a SampleError.
     std::uint64_t traffic_bytes = 0;  ///< misses x line_bytes: a replay only reads.
     std::optional<MissClasses> classes;
@@ -47,7 +47,7 @@ struct CacheTraffic {
 
 struct Replayed {
     std::uint64_t visited_nodes = 0;
-    std::uint64_t raw_bytes = 0;       ///< visited_nodes x bytes used of a node.
+    std::uint64_t raw_bytes = 0;       ///< Sum of what each visit reads.
     std::vector<CacheTraffic> caches;  ///< In the order asked for.
     double seconds = 0;
 };
@@ -66,7 +66,7 @@ bool family_serves(const cachesim::CacheConfig& config);
 
 /// For any order of the trace's queries and any of these caches. On all cores. Throws trace::DataError with
 /// the query's number when a walk does not fit its tree.
-Revisits count_revisits(const WalkStore& walks, const HeapLayout& layout, const ReplayConfig& config,
+Revisits count_revisits(const WalkStore& walks, const Layout& layout, const ReplayConfig& config,
                         const QueriesDone& progress = {});
 
 /// Whether `revisits` are of these caches or more.
@@ -75,14 +75,14 @@ bool serve(const Revisits& revisits, const ReplayConfig& config);
 /// Runs all queries in the order of `permutation` through each cache, as if it were alone. `revisits` are of
 /// the same walks, layout, and of these caches or more. `progress` is told the queries done now and then. One
 /// thread; several replays of one store can run at once. Throws as count_revisits().
-Replayed replay(const WalkStore& walks, const HeapLayout& layout, std::span<const std::uint32_t> permutation,
+Replayed replay(const WalkStore& walks, const Layout& layout, std::span<const std::uint32_t> permutation,
                 const ReplayConfig& config, const Revisits& revisits, const QueriesDone& progress = {});
 
-/// The nodes that any query visits, as a bitmap over slots (bit s: slot s, counted from 1). In parallel.
-std::vector<bool> touched_nodes(const WalkStore& walks);
+/// The elements that any query visits, as a bitmap by their numbers. In parallel.
+std::vector<bool> touched_elements(const WalkStore& walks);
 
-/// Compulsory traffic: the different lines on which the touched nodes lie, times the line size.
-std::uint64_t compulsory_bytes(const std::vector<bool>& touched, const HeapLayout& layout,
+/// Compulsory traffic: the different lines on which the touched elements lie, times the line size.
+std::uint64_t compulsory_bytes(const std::vector<bool>& touched, const Layout& layout,
                                std::uint32_t line_bytes);
 
 }  // namespace regather::replay

@@ -43,7 +43,7 @@ std::vector<std::uint64_t> chosen(std::uint64_t count, std::uint64_t below, std:
 
 }  // namespace
 
-LineUse count_line_use(const WalkStore& walks, const HeapLayout& layout, std::span<const CacheConfig> caches,
+LineUse count_line_use(const WalkStore& walks, const Layout& layout, std::span<const CacheConfig> caches,
                        const QueriesDone& progress) {
     struct Size {
         WalkLines lines;
@@ -53,23 +53,19 @@ LineUse count_line_use(const WalkStore& walks, const HeapLayout& layout, std::sp
     using Part = std::vector<Size>;
     LineUse use;
     for (const CacheConfig& cache : caches) {
-        const std::uint64_t first = layout.base / cache.line_bytes;
-        const std::uint64_t last =
-            walks.photons() == 0
-                ? first
-                : (layout.address(walks.photons()) + layout.used_bytes - 1) / cache.line_bytes;
-        use[cache.line_bytes].resize(last - first + 1);
+        const std::uint64_t end = (layout.end_byte() + cache.line_bytes - 1) / cache.line_bytes;
+        use[cache.line_bytes].resize(end - layout.first_byte() / cache.line_bytes);
     }
     tbb::enumerable_thread_specific<Part> parts([&] {
         Part part;
         for (const auto& [line_bytes, counts] : use)
-            part.push_back({WalkLines(layout, line_bytes, walks.photons()), layout.base / line_bytes,
+            part.push_back({WalkLines(layout, line_bytes), layout.first_byte() / line_bytes,
                             std::vector<std::uint64_t>(counts.size())});
         return part;
     });
-    run_all_walks(walks, parts, progress, [](Part& part, std::span<const std::uint32_t> slots) {
+    run_all_walks(walks, parts, progress, [](Part& part, std::span<const std::uint32_t> elements) {
         for (Size& size : part)
-            for (const Line line : size.lines.first(size.lines.touches(slots)).lines)
+            for (const Line line : size.lines.first(size.lines.touches(elements)).lines)
                 ++size.walks[static_cast<std::uint64_t>(line) - size.first_line];
     });
     for (const Part& part : parts)
@@ -98,7 +94,7 @@ void SetSample::check(std::span<const CacheConfig> caches, const Sampling& sampl
     }
 }
 
-SetSample::SetSample(const WalkStore& walks, const HeapLayout& layout, std::span<const CacheConfig> caches,
+SetSample::SetSample(const WalkStore& walks, const Layout& layout, std::span<const CacheConfig> caches,
                      const Sampling& sampling, const LineUse& use)
     : walks_(walks), layout_(layout), caches_(caches.begin(), caches.end()) {
     check(caches, sampling);
@@ -132,7 +128,7 @@ SetSample::SetSample(const WalkStore& walks, const HeapLayout& layout, std::span
             size.sampled[numbers[n]] = static_cast<std::uint16_t>(n);
         size.touches.resize(numbers.size());
         const std::vector<std::uint64_t>& by_line = use.at(size.line_bytes);
-        const std::uint64_t first_line = layout.base >> std::countr_zero(size.line_bytes);
+        const std::uint64_t first_line = layout.first_byte() >> std::countr_zero(size.line_bytes);
         const double hot = hot_share * static_cast<double>(walks.queries());
         for (std::size_t l = 0; l < by_line.size(); ++l) {
             const auto touching = static_cast<double>(by_line[l]);
@@ -146,10 +142,10 @@ SetSample::SetSample(const WalkStore& walks, const HeapLayout& layout, std::span
 
 /// One replay's simulation of the sampled classes of a line size.
 struct SetSample::Run {
-    Run(const LineSize& s, const HeapLayout& l, std::uint32_t photons)
+    Run(const LineSize& s, const Layout& l)
         : size(s),
           layout(l),
-          lines(l, s.line_bytes, photons),
+          lines(l, s.line_bytes),
           shift(std::countr_zero(s.classes)),
           last(s.touches.size(), ~std::uint64_t{0}),
           waiting(s.touches.size()) {
@@ -157,8 +153,8 @@ struct SetSample::Run {
         for (const std::uint16_t number : s.sampled) is_sampled.push_back(number != unsampled ? 1 : 0);
     }
 
-    void visit(std::span<const std::uint32_t> slots) {
-        const std::size_t count = find(slots);
+    void visit(std::span<const std::uint32_t> elements) {
+        const std::size_t count = find(elements);
         const std::uint16_t* const sampled = size.sampled.data();
         const std::uint64_t mask = size.classes - 1;
         for (std::size_t i = 0; i < count; ++i) {
@@ -173,12 +169,12 @@ struct SetSample::Run {
     }
     /// Puts the touches of sampled lines into `found`; returns their number. Without a branch: few are
     /// sampled, and nobody could foretell which.
-    std::size_t find(std::span<const std::uint32_t> slots) {
+    std::size_t find(std::span<const std::uint32_t> elements) {
         const std::uint8_t* const wanted = is_sampled.data();
         const std::uint64_t mask = size.classes - 1;
         std::size_t count = 0;
-        if (layout.used_bytes > size.line_bytes) {  // a node may lie on more than two lines
-            const std::span<const Line> touches = lines.touches(slots);
+        if (layout.widest() > size.line_bytes) {  // an element may lie on more than two lines
+            const std::span<const Line> touches = lines.touches(elements);
             accesses += touches.size();
             if (found.size() < touches.size()) found.resize(2 * touches.size());
             for (const Line line : touches) {
@@ -187,22 +183,20 @@ struct SetSample::Run {
             }
             return count;
         }
-        if (found.size() <= 2 * slots.size()) found.resize(4 * slots.size() + 1);
+        if (found.size() <= 2 * elements.size()) found.resize(4 * elements.size() + 1);
         Line* const to = found.data();
         const int line_shift = std::countr_zero(size.line_bytes);
-        std::uint64_t on_two = 0;
-        for (const std::uint32_t slot : slots) {
-            const std::uint64_t address = layout.address(slot);
-            const std::uint64_t first = address >> line_shift,
-                                second = (address + layout.used_bytes - 1) >> line_shift;
+        std::uint64_t touched = 0;
+        layout.for_each(elements, [&](std::uint32_t, std::uint64_t address, std::uint32_t bytes) {
+            const std::uint64_t first = address >> line_shift, second = (address + bytes - 1) >> line_shift;
             const std::uint64_t two = second - first;
-            on_two += two;
+            touched += 1 + two;
             to[count] = Line{first};
             count += wanted[first & mask];
             to[count] = Line{second};
             count += wanted[second & mask] & two;
-        }
-        accesses += slots.size() + on_two;
+        });
+        accesses += touched;
         return count;
     }
     void pass(std::size_t n) {
@@ -246,7 +240,7 @@ struct SetSample::Run {
 
     static constexpr std::size_t batch = 4096;
     const LineSize& size;
-    const HeapLayout& layout;
+    const Layout& layout;
     WalkLines lines;
     int shift;
     std::uint64_t accesses = 0;
@@ -261,13 +255,13 @@ Replayed SetSample::replay(std::span<const std::uint32_t> permutation, const Que
     const auto start = std::chrono::steady_clock::now();
     std::vector<Run> runs;
     runs.reserve(sizes_.size());
-    for (const LineSize& size : sizes_) runs.emplace_back(size, layout_, walks_.photons());
+    for (const LineSize& size : sizes_) runs.emplace_back(size, layout_);
     Replayed result;
     result.visited_nodes =
-        run_walks(walks_, permutation, progress, [&](std::span<const std::uint32_t> slots) {
-            for (Run& run : runs) run.visit(slots);
+        run_walks(walks_, permutation, progress, [&](std::span<const std::uint32_t> elements) {
+            result.raw_bytes += layout_.bytes(elements);
+            for (Run& run : runs) run.visit(elements);
         });
-    result.raw_bytes = result.visited_nodes * layout_.used_bytes;
     for (const CacheConfig& cache : caches_)
         for (Run& run : runs)
             if (run.size.line_bytes == cache.line_bytes) result.caches.push_back(run.traffic(cache));

@@ -25,13 +25,13 @@ struct Sampling {
 using LineUse = std::map<std::uint32_t, std::vector<std::uint64_t>>;
 
 /// For the line sizes of `caches`. On all cores.
-LineUse count_line_use(const WalkStore& walks, const HeapLayout& layout,
+LineUse count_line_use(const WalkStore& walks, const Layout& layout,
                        std::span<const cachesim::CacheConfig> caches, const QueriesDone& progress = {});
 
 class SetSample {
 public:
-    /// `use` is of the same walks and layout. Throws trace::UsageError as check().
-    SetSample(const WalkStore& walks, const HeapLayout& layout, std::span<const cachesim::CacheConfig> caches,
+    /// `use` is of the same walks and layout, which outlive the sample. Throws trace::UsageError as check().
+    SetSample(const WalkStore& walks, const Layout& layout, std::span<const cachesim::CacheConfig> caches,
               const Sampling& sampling, const LineUse& use);
 
     /// Throws trace::UsageError for a rate that is not as above, and for a cache that is fully associative,
@@ -55,7 +55,7 @@ private:
     struct Run;
 
     const WalkStore& walks_;
-    HeapLayout layout_;
+    const Layout& layout_;
     std::vector<cachesim::CacheConfig> caches_;
     std::vector<LineSize> sizes_;
 };

@@ -8,8 +8,8 @@
 
 #include "replay/walk_run.h"
 #include "replay/walk_store.h"
-#include "spatial/photon_kd.h"
-#include "spatial/recording.h"
+#include "spatial/photons/photon_kd.h"
+#include "spatial/photons/structures.h"
 #include "trace/error.h"
 #include "trace/text.h"
 
@@ -65,7 +65,7 @@ public:
         for (const trace::ColumnEntry& entry : trace::column_table())
             if (entry.name.starts_with("ray_")) check_rays(entry.name);
         check_walks();
-        check_searches(tree, progress);
+        check_searches(progress);
         return verified_;
     }
 
@@ -164,20 +164,34 @@ private:
         };
         const WalkStore walks(trace_);
         tbb::enumerable_thread_specific<Sum> parts;
-        run_all_walks(walks, parts, {},
-                      [](Sum& sum, std::span<const std::uint32_t> slots) { sum.nodes += slots.size(); });
+        run_all_walks(walks, parts, {}, [](Sum& sum, std::span<const std::uint32_t> elements) {
+            sum.nodes += elements.size();
+        });
         std::uint64_t nodes = 0;
         for (const Sum& sum : parts) nodes += sum.nodes;
         if (nodes != info_.visited_nodes)
             refuse("visited_nodes", info_.visited_nodes, fmt::format("{}, the nodes of all walks", nodes));
     }
 
-    void check_searches(const spatial::PhotonKd& tree, const QueriesDone& progress) {
+    void check_searches(const QueriesDone& progress) {
         const std::uint64_t most = info_.queries * std::min<std::uint64_t>(info_.k, info_.photons);
         if (info_.found_photons > most)
             refuse("found_photons", info_.found_photons, fmt::format("at most {}", most));
         const std::optional<float> radius = search_radius(trace_);
         if (!radius) return;
+        const auto search = spatial::build(spatial::parse_structure(info_.structure),
+                                           trace_.column<trace::Photon>("photon"), info_.k, *radius);
+        if (!search->structure()->same_as(*spatial::open_structure(trace_)))
+            refuse("tree_child", 0, "another tree",
+                   "the one that " + info_.structure + " builds over the photons");
+        if (const std::span<const std::uint32_t> places = search->photon_at(); !places.empty()) {
+            const std::span<const std::uint32_t> stored = trace_.column<std::uint32_t>("tree_photon");
+            const auto [at, other] =
+                std::mismatch(stored.begin(), stored.end(), places.begin(), places.end());
+            if (at != stored.end())
+                refuse("tree_photon", static_cast<std::uint64_t>(at - stored.begin()), fmt::format("{}", *at),
+                       fmt::format("{}", *other));
+        }
         const std::span<const Vec3> positions = trace_.column<Vec3>("query_position");
         const std::span<const std::uint32_t> lengths = trace_.column<std::uint32_t>("query_walk_bytes");
         std::span<const std::uint8_t> walks = trace_.column<std::uint8_t>("walk");
@@ -186,7 +200,7 @@ private:
         for (std::uint64_t first = 0; first < positions.size(); first += batch) {
             const std::span<const Vec3> points =
                 positions.subspan(first, std::min(batch, positions.size() - first));
-            const spatial::Recording again = spatial::record_walks(tree, points, info_.k, *radius);
+            const spatial::Recording again = search->record(points, info_.k, *radius);
             std::size_t at = 0;
             for (std::size_t i = 0; i < points.size(); ++i) {
                 const std::uint32_t length = lengths[first + i];

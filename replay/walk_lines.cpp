@@ -8,19 +8,19 @@ namespace regather::replay {
 
 using cachesim::Line;
 
-WalkLines::WalkLines(const HeapLayout& layout, std::uint32_t line_bytes, std::uint32_t photons)
-    : layout_(layout), shift_(std::countr_zero(line_bytes)), first_line_(layout.base >> shift_) {
-    const std::uint64_t end = photons == 0 ? layout.base : layout.address(photons) + layout.used_bytes - 1;
-    entry_.resize((end >> shift_) - first_line_ + 1);
+WalkLines::WalkLines(const Layout& layout, std::uint32_t line_bytes)
+    : layout_(&layout), shift_(std::countr_zero(line_bytes)), first_line_(layout.first_byte() >> shift_) {
+    const std::uint64_t last =
+        std::max(layout.first_byte(), layout.end_byte() - (layout.end_byte() > 0 ? 1 : 0));
+    entry_.resize((last >> shift_) - first_line_ + 1);
 }
 
-std::span<const Line> WalkLines::touches(std::span<const std::uint32_t> slots) {
-    const std::size_t lines_a_node = (layout_.used_bytes >> shift_) + 2;
-    if (touches_.size() < slots.size() * lines_a_node) touches_.resize(slots.size() * lines_a_node);
+std::span<const Line> WalkLines::touches(std::span<const std::uint32_t> elements) {
+    const std::size_t most_lines = (layout_->widest() >> shift_) + 2;
+    if (touches_.size() < elements.size() * most_lines) touches_.resize(elements.size() * most_lines);
     Line* to = touches_.data();
-    for (const std::uint32_t slot : slots) {
-        const std::uint64_t address = layout_.address(slot);
-        const std::uint64_t first = address >> shift_, last = (address + layout_.used_bytes - 1) >> shift_;
+    layout_->for_each(elements, [&](std::uint32_t, std::uint64_t address, std::uint32_t bytes) {
+        const std::uint64_t first = address >> shift_, last = (address + bytes - 1) >> shift_;
         *to++ = Line{first};
         *to = Line{last};  // overwritten when it is the same
         to += static_cast<int>(last != first);
@@ -28,7 +28,7 @@ std::span<const Line> WalkLines::touches(std::span<const std::uint32_t> slots) {
             --to;
             for (std::uint64_t line = first + 1; line <= last; ++line) *to++ = Line{line};
         }
-    }
+    });
     return {touches_.data(), to};
 }
 

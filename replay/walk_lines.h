@@ -13,13 +13,13 @@ namespace regather::replay {
 /// One thread at a time.
 class WalkLines {
 public:
-    /// For walks over `photons` nodes; line_bytes is a power of two.
-    WalkLines(const HeapLayout& layout, std::uint32_t line_bytes, std::uint32_t photons);
+    /// line_bytes is a power of two. The layout outlives it.
+    WalkLines(const Layout& layout, std::uint32_t line_bytes);
 
     std::uint32_t line_bytes() const { return std::uint32_t{1} << shift_; }
 
-    /// A node on two lines touches both, the lower one first. Valid until the next call.
-    std::span<const cachesim::Line> touches(std::span<const std::uint32_t> slots);
+    /// An element on two lines touches both, the lower one first. Valid until the next call.
+    std::span<const cachesim::Line> touches(std::span<const std::uint32_t> elements);
 
     /// What LruFamily::access_first() takes: the different lines in the order of their first touches, and the
     /// place of each in the order of their last touches.
@@ -31,7 +31,7 @@ public:
     First first(std::span<const cachesim::Line> touches);
 
 private:
-    HeapLayout layout_;
+    const Layout* layout_;
     int shift_;
     std::uint64_t first_line_;
     std::vector<cachesim::Line> touches_;

@@ -11,19 +11,19 @@
 
 #include "replay/replay.h"
 #include "replay/walk_store.h"
-#include "spatial/walk.h"
+#include "spatial/structure.h"
 
 namespace regather::replay {
 
-/// Throws trace::DataError that names the file and the query whose walk does not fit its tree.
+/// Throws trace::DataError that names the file and the query whose walk does not fit its structure.
 [[noreturn]] void refuse_walk(const WalkStore& walks, std::uint64_t query, spatial::WalkFault fault);
 
-/// Calls visit(slots) for the walk of each query of `permutation`. Returns the number of visited nodes.
+/// Calls visit(elements) for the walk of each query of `permutation`. Returns the number of visited elements.
 template <class Visit>
 std::uint64_t run_walks(const WalkStore& walks, std::span<const std::uint32_t> permutation,
                         const QueriesDone& progress, Visit&& visit) {
     constexpr std::uint64_t prefetch_table = 32, prefetch_walk = 12, progress_queries = 1 << 16;
-    spatial::WalkDecoder decoder(walks.photons());
+    const std::unique_ptr<spatial::WalkDecoder> decoder = walks.structure().decoder();
     std::uint64_t visited = 0;
     for (std::uint64_t r = 0; r < permutation.size(); ++r) {
         if (r + prefetch_table < permutation.size()) walks.prefetch(permutation[r + prefetch_table]);
@@ -32,31 +32,31 @@ std::uint64_t run_walks(const WalkStore& walks, std::span<const std::uint32_t> p
             __builtin_prefetch(ahead.data());
             __builtin_prefetch(ahead.data() + ahead.size());
         }
-        const auto [fault, slots] = decoder.decode(walks.walk(permutation[r]));
+        const auto [fault, elements] = decoder->decode(walks.walk(permutation[r]));
         if (fault != spatial::WalkFault::none) refuse_walk(walks, permutation[r], fault);
-        visited += slots.size();
-        visit(slots);
+        visited += elements.size();
+        visit(elements);
         if (progress && (r + 1) % progress_queries == 0) progress(r + 1);
     }
     if (progress) progress(permutation.size());
     return visited;
 }
 
-/// Calls visit(part, slots) for the walk of every query, on all cores in any order: each thread has a Part of
-/// its own.
+/// Calls visit(part, elements) for the walk of every query, on all cores in any order: each thread has a Part
+/// of its own.
 template <class Part, class Visit>
 void run_all_walks(const WalkStore& walks, tbb::enumerable_thread_specific<Part>& parts,
                    const QueriesDone& progress, Visit&& visit) {
-    tbb::enumerable_thread_specific<spatial::WalkDecoder> decoders(
-        [&] { return spatial::WalkDecoder(walks.photons()); });
+    tbb::enumerable_thread_specific<std::unique_ptr<spatial::WalkDecoder>> decoders(
+        [&] { return walks.structure().decoder(); });
     std::atomic<std::uint64_t> done = 0;
     tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, walks.queries(), 4096), [&](const auto& range) {
-        spatial::WalkDecoder& decoder = decoders.local();
+        spatial::WalkDecoder* const decoder = decoders.local().get();
         Part& part = parts.local();
         for (std::uint64_t q = range.begin(); q != range.end(); ++q) {
-            const auto [fault, slots] = decoder.decode(walks.walk(q));
+            const auto [fault, elements] = decoder->decode(walks.walk(q));
             if (fault != spatial::WalkFault::none) refuse_walk(walks, q, fault);
-            visit(part, slots);
+            visit(part, elements);
         }
         done += range.size();
         if (progress) progress(done);

@@ -2,10 +2,12 @@
 // query.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "spatial/structure.h"
 #include "trace/folder.h"
 
 namespace regather::replay {
@@ -16,11 +18,11 @@ public:
     /// Throws trace::DataError when the lengths do not add up to the bytes there are.
     explicit WalkStore(trace::TraceReader& trace);
     /// `file`: where the walks are from, for messages.
-    WalkStore(std::uint32_t photons, std::span<const std::uint32_t> walk_bytes,
+    WalkStore(std::shared_ptr<const spatial::Structure> structure, std::span<const std::uint32_t> walk_bytes,
               std::span<const std::uint8_t> walks, std::string file = "walk.npy");
 
     std::uint64_t queries() const { return walk_bytes_.size(); }
-    std::uint32_t photons() const { return photons_; }
+    const spatial::Structure& structure() const { return *structure_; }
     const std::string& file() const { return file_; }
     std::span<const std::uint8_t> walk(std::uint64_t query) const {
         std::uint64_t start = block_start_[query / block_queries];
@@ -35,7 +37,7 @@ public:
 
 private:
     static constexpr std::uint64_t block_queries = 16;
-    std::uint32_t photons_;
+    std::shared_ptr<const spatial::Structure> structure_;
     std::span<const std::uint32_t> walk_bytes_;
     std::span<const std::uint8_t> walks_;
     std::vector<std::uint64_t> block_start_;

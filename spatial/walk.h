@@ -1,7 +1,7 @@
-// spatial/walk.h -- the walk of a kNN search as bits, and back. A search of the left-balanced tree makes two
-// decisions at each visited node that has a child: which child first, and later whether the other one is
-// entered. These bits, in the order of the decisions, give the visited nodes back without searching: 2 bits a
-// visited inner node, none for a leaf.
+// spatial/walk.h -- the walk of a kNN search as bits (spatial/heap_walk.h: and back). A search of the
+// left-balanced tree makes two decisions at each visited node that has a child: which child first, and later
+// whether the other one is entered. These bits, in the order of the decisions, give the visited nodes back
+// without searching: 2 bits a visited inner node, none for a leaf.
 //
 // Grammar (bits from the most significant of each byte, as numpy.unpackbits reads them; a walk starts on a
 // byte and is padded with zeros). A search that visits nothing has a walk of no bytes; any other walk has at
@@ -70,38 +70,6 @@ private:
     std::uint64_t word_ = 0, visited_ = 0;
     unsigned used_ = 0;
     bool began_ = false;
-};
-
-/// Why a walk cannot be decoded.
-enum class WalkFault : std::uint8_t { none, ends_early, bytes_left_over, enters_missing_child };
-
-/// Decodes walks over a left-balanced tree. One thread at a time.
-///
-/// The tree is cut at the third level from below. Above it every node has two children, so a descent is a run
-/// of near bits whose length is known: it is read at once, and the nodes are prefixes of one number; the far
-/// children that are not yet decided are a set of levels, and a run of zero far bits drops as many of them.
-/// Below it are subtrees of seven nodes, or three where the deepest level has ended: the next six, or two,
-/// bits look their visits up in a table. So a step takes about six nodes, and no branch of it depends on the
-/// bits.
-class WalkDecoder {
-public:
-    explicit WalkDecoder(std::uint32_t photons);
-
-    struct Visits {
-        WalkFault fault = WalkFault::none;
-        std::span<const std::uint32_t> slots;  ///< Visited nodes in order, counted from 1; up to the fault.
-    };
-    /// The result lives until the next call.
-    Visits decode(std::span<const std::uint8_t> walk);
-
-private:
-    struct Cursor;
-    void subtree(Cursor& cursor, std::uint64_t slot);
-
-    std::uint32_t photons_;
-    int cut_;  // level of the subtrees' roots; below 0 in a tree of fewer than four nodes
-    std::vector<std::uint8_t> padded_;  // the walk, and zeros
-    std::vector<std::uint32_t> visited_;
 };
 
 }  // namespace regather::spatial

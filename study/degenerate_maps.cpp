@@ -9,7 +9,7 @@
 
 #include "capture/radiance_estimate.h"
 #include "capture/sampler.h"
-#include "spatial/nearest.h"
+#include "spatial/photons/nearest.h"
 #include "study/case.h"
 #include "trace/photon.h"
 

@@ -22,6 +22,14 @@ constexpr ColumnEntry table[] = {
     {"photon", "photon", "see docs/trace_format.md",
      "photons in heap order of the left-balanced kd-tree; split axis and surface normal are in the flags",
      column_type<Photon>, true},
+    {"tree_child", "tree_child", "element",
+     "lower and upper child of each inner node of a tree with leaves; elements are the inner nodes, then the "
+     "leaves",
+     column_type<std::uint32_t>, false},
+    {"tree_leaf_begin", "tree_leaf_begin", "place",
+     "where the photons of each leaf begin, and the number of photons", column_type<std::uint32_t>, false},
+    {"tree_photon", "photon", "row of photon", "which photon lies at each place of the leaves",
+     column_type<std::uint32_t>, false},
     {"query_position", "query", "scene units", "where the k nearest photons are asked for", column_type<Vec3>,
      true},
     {"query_pixel", "query", "y * image_width + x", "the pixel that the answer belongs to",
@@ -75,6 +83,7 @@ const Kind trace_kind{"trace",
                        {"k", required, from_one},
                        {"seed", required, count},
                        {"structure", required, "the name of a structure"},
+                       {"structure_version", required, from_one},
                        {"queries", required, count},
                        {"photons", required, count},
                        {"found_photons", required, count},
@@ -187,6 +196,7 @@ void TraceWriter::finish(const TraceInfo& info) {
                               {"k", info.k},
                               {"seed", info.seed},
                               {"structure", info.structure},
+                              {"structure_version", info.structure_version},
                               {"queries", info.queries},
                               {"photons", info.photons},
                               {"found_photons", info.found_photons},
@@ -215,7 +225,8 @@ TraceReader::TraceReader(fs::path folder) : folder_(std::move(folder)) {
     if (root.has("frame")) info_.frame = small(root, "frame", 0);
     info_.k = small(root, "k", 1);
     info_.seed = whole(root, "seed");
-    info_.structure = structure_names[root["structure"].word(structure_names)];
+    info_.structure = root["structure"].text();
+    info_.structure_version = small(root, "structure_version", 1);
     info_.queries = whole(root, "queries");
     info_.photons = whole(root, "photons");
     info_.found_photons = whole(root, "found_photons");
@@ -280,6 +291,10 @@ const MappedColumn& TraceReader::open(std::string_view name, const ColumnType& t
                                     hexadecimal(checksum), hexadecimal(digest->second.checksum)));
     verified_.emplace(name);
     return column;
+}
+
+std::span<const std::byte> TraceReader::bytes(std::string_view name) {
+    return open(name, column_entry(name).type()).bytes();
 }
 
 void TraceReader::verify_all() {

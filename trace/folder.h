@@ -22,7 +22,7 @@ namespace regather::trace {
 
 class Field;
 
-inline constexpr int schema_version = 1;
+inline constexpr int schema_version = 2;
 
 /// The columns that a trace can have; columns of one group have the same number of rows.
 struct ColumnEntry {
@@ -33,8 +33,6 @@ struct ColumnEntry {
 std::span<const ColumnEntry> column_table();
 const ColumnEntry& column_entry(std::string_view name);  ///< UsageError for an unknown name.
 
-/// What a trace may have been walked through, by name.
-inline constexpr std::array<std::string_view, 1> structure_names{"left-balanced-kd"};
 /// The photon maps of a capture.
 inline constexpr std::array<std::string_view, 2> map_names{"global", "caustic"};
 
@@ -50,7 +48,8 @@ struct TraceInfo {
     std::optional<std::uint32_t> frame;               ///< Of the scene's camera path.
     std::uint32_t k = 0;
     std::uint64_t seed = 0;
-    std::string structure{structure_names[0]};
+    std::string structure{"left-balanced-kd"};  ///< What was walked: a spec of spatial/photons/structures.h.
+    std::uint32_t structure_version = 1;
     std::uint64_t queries = 0, photons = 0;
     std::uint64_t found_photons = 0;   ///< Sum over the queries of the photons that each found.
     std::uint64_t visited_nodes = 0;   ///< Sum over the queries of the nodes that each visited.
@@ -77,7 +76,7 @@ private:
 };
 
 /// Opens a finished trace. Throws DataError that names file, field, found and expected when it is not one, or
-/// is of another schema version, structure or map, or its image is empty, or k is 0, or a required column is
+/// is of another schema version or map, or its image is empty, or k is 0, or a required column is
 /// not listed, or a listed one is missing or has another type or row count than trace.json says.
 class TraceReader {
 public:
@@ -94,6 +93,8 @@ public:
     std::span<const T> column(std::string_view name) {
         return open(name, column_type<T>()).template rows<T>();
     }
+    /// The rows of any column as bytes; otherwise as column().
+    std::span<const std::byte> bytes(std::string_view name);
     void verify_all();  ///< Reads every column.
     /// One number for the whole trace: XXH3-64 over the names and checksums of its columns, in hexadecimal.
     std::string checksum() const;

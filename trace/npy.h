@@ -77,6 +77,7 @@ public:
     std::span<const T> rows() const {
         return {reinterpret_cast<const T*>(data_), rows_};
     }
+    std::span<const std::byte> bytes() const { return {data_, rows_ * row_bytes_}; }
     /// Tells the kernel that the rows are read in no order (madvise).
     void expect_random_access() const;
 

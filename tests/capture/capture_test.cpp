@@ -13,7 +13,8 @@
 #include <numeric>
 
 #include "capture/moments.h"
-#include "spatial/nearest.h"
+#include "spatial/heap_walk.h"
+#include "spatial/photons/nearest.h"
 #include "spatial/walk.h"
 #include "tests/capture/counts.h"
 #include "tests/capture/images/picture.h"
@@ -111,7 +112,7 @@ TEST(Capture, DecodedWalksAreTheSearchsOwnVisitsOnEveryQuery) {
         const auto lengths = trace.column<std::uint32_t>("query_walk_bytes");
         const auto walks = trace.column<std::uint8_t>("walk");
         ASSERT_GT(positions.size(), 1000u) << name;
-        spatial::WalkDecoder decoder(static_cast<std::uint32_t>(photons.size()));
+        spatial::HeapWalkDecoder decoder(static_cast<std::uint32_t>(photons.size()));
         spatial::NearestSet found(30);
         struct Visits {
             std::vector<std::uint32_t> slots;

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "capture/sampler.h"
-#include "spatial/photon_kd.h"
+#include "spatial/photons/photon_kd.h"
 
 namespace regather::capture {
 namespace {

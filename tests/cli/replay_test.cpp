@@ -64,6 +64,48 @@ TEST(Replay, ACacheThatHoldsAllMissesOnlyTheCompulsory) {
     EXPECT_EQ(row.traffic_bytes, row.compulsory_bytes);
 }
 
+TEST(Replay, EachLayoutGetsRowsOfItsOwn) {
+    const std::string trace = (captured_box() / "trace").string();
+    const auto rows = [&](std::vector<std::string> layouts) {
+        return results::from_csv(
+            expect_done(std::vector<std::string>{"replay", trace, "--order", "random", "naive", "--cache",
+                                                 "4K:128:8", "1M:128:full"} +
+                        layouts)
+                .out,
+            "stdout");
+    };
+    const std::vector<std::string> names{"heap-20", "van-emde-boas-20", "clusters-16:line=64,top=2"};
+    const std::vector<results::Row> alone = rows({}),
+                                    all = rows(std::vector<std::string>{"--layout"} + names);
+    ASSERT_EQ(all.size(), 12u);
+    const std::uint64_t nodes = trace::TraceReader(trace).info().visited_nodes,
+                        queries = trace::TraceReader(trace).info().queries;
+    for (std::size_t r = 0; r < all.size(); ++r) {
+        EXPECT_EQ(all[r].layout, names[r / 4]);
+        EXPECT_GE(all[r].traffic_bytes, all[r].compulsory_bytes);
+        if (r % 2 == 1) EXPECT_EQ(all[r].traffic_bytes, all[r].compulsory_bytes) << "a cache for all of it";
+        EXPECT_EQ(all[r].oracle_bytes, all[0].oracle_bytes);
+    }
+    for (std::size_t r = 0; r < 4; ++r) {
+        EXPECT_EQ(all[r].misses, alone[r].misses);
+        EXPECT_EQ(all[r].net_benefit_bytes, alone[r].net_benefit_bytes);
+    }
+    EXPECT_EQ(all[4].raw_bytes, 20 * nodes);
+    // The root and, mostly, one or both of its children are on chip.
+    EXPECT_LT(all[8].raw_bytes, 16 * (nodes - queries));
+    EXPECT_GE(all[8].raw_bytes, 16 * (nodes - 3 * queries));
+    // Some other lines are missed: the layout has come through.
+    EXPECT_NE(all[4].misses, all[0].misses);
+}
+
+TEST(Replay, ALayoutThatIsNotOneIsRefused) {
+    const std::string trace = (captured_box() / "trace").string();
+    expect_refused(2, {"replay", trace, "--order", "naive", "--layout", "heaps-20"}, {"nearest: heap"});
+    expect_refused(2,
+                   {"replay", trace, "--order", "naive", "--layout", "clusters-20", "clusters-20:line=128"},
+                   {"clusters-20:line=128 twice"});
+}
+
 TEST(Replay, TheJsonBesideTheCsvSaysHowItCameToBe) {
     const Scratch scratch;
     const std::string trace = (captured_box() / "trace").string(), csv = (scratch / "rows.csv").string();
@@ -306,7 +348,7 @@ TEST(Damaged, TraceJsonIsRefusedByFieldAndFileName) {
         write(json, root.dump());
     };
     with("/regather_trace", 99);
-    refused({"trace.json", "version 99", "expected 1"});
+    refused({"trace.json", "version 99", "expected 2"});
     with("/queries", 5);
     refused({"trace.json", "queries", "found 5"});
     with("/photons", "many");
@@ -317,6 +359,12 @@ TEST(Damaged, TraceJsonIsRefusedByFieldAndFileName) {
     refused({"trace.json", "16 hexadecimal digits"});
     with("/image_width", 0);
     refused({"trace.json", "image_width", "found 0"});
+    with("/structure", "bvh4");
+    refused({"trace.json", "structure: unknown \"bvh4\"", "left-balanced-kd"});
+    with("/structure_version", 2);
+    refused({"trace.json", "structure_version: found 2, expected 1", "walk the trace again"});
+    with("/structure", "median-kd:leaf=8");
+    refused({"tree_child.npy", "found no such column"});
 }
 
 TEST(Replay, AMachineOfOneLevelMovesWhatThatCacheMoves) {

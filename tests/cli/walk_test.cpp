@@ -1,8 +1,12 @@
 // `regather walk`: a trace from columns that somebody else wrote.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "results/csv.h"
+#include "spatial/photons/structures.h"
 #include "tests/cli/expect.h"
 #include "tests/column.h"
 #include "trace/folder.h"
@@ -154,6 +158,91 @@ TEST_F(Walk, TheColumnsFolderIsNoPlaceForTheTrace) {
     expect_refused(bad_usage, {"walk", columns_.string(), "-o", columns_.string(), "--force"},
                    {"photon_position.npy"});
     EXPECT_EQ(contents(columns_), before);
+}
+
+// --- a trace's queries in another structure ---
+
+TEST(WalkAgain, InEveryStructureTheSamePhotonsAreFound) {
+    const Scratch scratch;
+    const std::string from = (captured_box() / "trace").string();
+    const trace::TraceReader original(from);
+    for (const spatial::StructureEntry& entry : spatial::structures()) {
+        const std::string name(entry.name), spec = entry.parameters.empty() ? name : name + ":leaf=5",
+                                            to = (scratch / name).string();
+        expect_done({"walk", from, "--structure", spec, "-o", to});
+        expect_done({"info", to, "--verify"});
+        const trace::TraceReader found(to);
+        EXPECT_EQ(found.info().structure, spec);
+        EXPECT_EQ(found.info().found_photons, original.info().found_photons);
+        EXPECT_EQ(found.info().scene, "box");
+        for (const char* column : {"photon", "query_position", "query_pixel", "ray_gather_origin"})
+            EXPECT_EQ(found.digests().at(column), original.digests().at(column)) << column;
+        EXPECT_EQ(found.digests().at("walk") == original.digests().at("walk"), entry.parameters.empty());
+        if (entry.parameters.empty())
+            EXPECT_EQ(found.info().visited_nodes > original.info().visited_nodes, name != "left-balanced-kd");
+        const std::vector<results::Row> rows =
+            results::from_csv(expect_done({"replay", to, "--order", "random", "naive", "--layout", "heap-20",
+                                           "depth-first-32:node=16", "--cache", "4K:128:8", "4M:128:full"})
+                                  .out,
+                              "stdout");
+        ASSERT_EQ(rows.size(), 8u);
+        for (const results::Row& row : rows) {
+            EXPECT_EQ(row.structure, spec);
+            EXPECT_GE(row.traffic_bytes, row.compulsory_bytes);
+            if (*row.cache_bytes > 4096) EXPECT_EQ(row.traffic_bytes, row.compulsory_bytes);
+        }
+        EXPECT_EQ(rows[0].layout, entry.parameters.empty() ? "heap-20" : "heap-20:node=8");
+    }
+}
+
+TEST(WalkAgain, WhatDoesNotFitIsRefused) {
+    const Scratch scratch;
+    const std::string from = (captured_box() / "trace").string(), to = (scratch / "t").string();
+    expect_refused(bad_usage, {"walk", from, "--structure", "median", "-o", to},
+                   {"unknown \"median\"", "nearest: median-kd"});
+    expect_refused(bad_usage, {"walk", from, "--structure", "median-kd:leaf=65", "-o", to},
+                   {"leaf is 65, expected 1 to 64"});
+    expect_refused(bad_usage, {"walk", from, "--structure", "left-balanced-kd:leaf=4", "-o", to},
+                   {"takes none"});
+    expect_refused(bad_usage, {"walk", from, "--structure", "median-kd", "--k", "4", "-o", to},
+                   {"expected no --k"});
+    expect_refused(bad_usage, {"walk", from, "--structure", "median-kd", "-o", from, "--force"},
+                   {"another folder"});
+    EXPECT_FALSE(fs::exists(scratch / "t"));
+}
+
+TEST(WalkAgain, ADamagedTreeIsRefusedByColumnAndRow) {
+    const Scratch scratch;
+    const std::string to = (scratch / "t").string();
+    expect_done({"walk", (captured_box() / "trace").string(), "--structure", "midpoint-kd:leaf=9", "-o", to});
+    trace::TraceReader reader(to);
+    const auto children = reader.column<std::uint32_t>("tree_child"),
+               begins = reader.column<std::uint32_t>("tree_leaf_begin"),
+               places = reader.column<std::uint32_t>("tree_photon");
+    const auto with = [&](const char* name, std::span<const std::uint32_t> rows, std::size_t at,
+                          std::uint32_t value, const std::vector<std::string>& words,
+                          const std::vector<std::string>& parts) {
+        const fs::path copy = scratch / "copy";
+        fs::remove_all(copy);
+        fs::copy(to, copy, fs::copy_options::recursive);
+        std::vector<std::uint32_t> changed(rows.begin(), rows.end());
+        changed.at(at) = value;
+        const trace::ColumnDigest digest =
+            write_column<std::uint32_t>(copy / (std::string(name) + ".npy"), changed);
+        auto json = nlohmann::json::parse(content(copy / "trace.json"));
+        json["columns"][name]["xxh3_64"] = fmt::format("{:016x}", digest.checksum);
+        write(copy / "trace.json", json.dump());
+        std::vector<std::string> all = words;
+        all.insert(all.begin() + 1, copy.string());
+        expect_refused(bad_data, all, parts);
+    };
+    const std::vector<std::string> replay{"replay", "--order", "naive"}, verify{"info", "--verify"};
+    with("tree_child", children, 4, children[5], replay, {"tree_child.npy: row 5"});
+    with("tree_child", children, 7, 2, replay, {"tree_child.npy: row 7: found 2"});
+    with("tree_child", children, 0, 0xffffffff, replay, {"tree_child.npy: row 0"});
+    with("tree_leaf_begin", begins, 3, begins[2], replay, {"tree_leaf_begin.npy: row 3"});
+    with("tree_leaf_begin", begins, 0, 1, replay, {"tree_leaf_begin.npy"});
+    with("tree_photon", places, 11, places[12], verify, {"tree_photon.npy: row 11"});
 }
 
 }  // namespace

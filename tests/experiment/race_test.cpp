@@ -6,7 +6,7 @@
 
 #include <stdexcept>
 
-#include "spatial/photon_kd.h"
+#include "spatial/photons/photon_kd.h"
 
 namespace regather::experiment {
 namespace {

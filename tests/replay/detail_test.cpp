@@ -8,8 +8,8 @@
 
 #include "reorder/catalogue.h"
 #include "replay/buffered.h"
-#include "spatial/nearest.h"
-#include "spatial/recording.h"
+#include "spatial/photons/left_balanced.h"
+#include "spatial/photons/recording.h"
 #include "tests/spatial/photons.h"
 #include "trace/error.h"
 
@@ -24,10 +24,13 @@ struct Traced {
     std::vector<trace::Vec3> points, directions;
     std::vector<std::uint32_t> pixels, leaves;
     std::uint32_t width;
+    std::shared_ptr<const spatial::Structure> tree;
     spatial::Recording recording;
 
     Traced(std::size_t photons, std::uint32_t image_width, std::size_t queries, std::uint32_t k)
-        : heap(spatial::left_balanced(spatial::uniform_photons(photons))), width(image_width) {
+        : heap(spatial::left_balanced(spatial::uniform_photons(photons))),
+          width(image_width),
+          tree(std::make_shared<spatial::LeftBalanced>(static_cast<std::uint32_t>(photons))) {
         spatial::Numbers numbers(11);
         const auto coordinate = [&] { return numbers.uniform(); };
         for (std::size_t q = 0; q < queries; ++q) {
@@ -38,9 +41,8 @@ struct Traced {
         }
         recording = spatial::record_walks(spatial::PhotonKd(heap), points, k, 1e9f);
     }
-    WalkStore walks() const {
-        return {static_cast<std::uint32_t>(heap.size()), recording.walk_bytes, recording.walks};
-    }
+    WalkStore walks() const { return {tree, recording.walk_bytes, recording.walks}; }
+    Layout layout() const { return heap_20(*tree); }
     reorder::Workload work() const {
         return {.position = points,
                 .direction = directions,
@@ -67,8 +69,8 @@ std::vector<std::uint32_t> in_capture_order(std::size_t count) {
 TEST(Detail, FourPhotonsOn64ByteLinesAreThoseDrawnByHand) {
     // Nodes at bytes 0, 20, 40 and 60: the fourth, at depth 2, straddles lines 0 and 1.
     const Traced traced(4, 1, 1, 4);
-    const Detail detail =
-        replay_in_detail(traced.walks(), {}, in_capture_order(1), {}, {.cache = {1024, 64, 2}, .slices = 1});
+    const Detail detail = replay_in_detail(traced.walks(), traced.layout(), in_capture_order(1), {},
+                                           {.cache = {1024, 64, 2}, .slices = 1});
     ASSERT_EQ(detail.parts.size(), 4u);
     for (std::uint32_t depth = 0; depth < 3; ++depth) EXPECT_EQ(detail.parts[depth].depth, depth);
     EXPECT_EQ(detail.parts[0].stats,
@@ -88,10 +90,11 @@ TEST(Detail, WithoutBuffersTotalsAreThoseOfThePlainReplay) {
     const auto order = reorder::order(*reorder::make_ordering("random"), many().work()).permutation;
     const ReplayConfig config{
         {{4096, 128, 8}, {2048, 64, 1}, {1024, 16, 4}, {8192, 128, 0}, {1 << 20, 256, 2}}, true};
-    const Revisits revisits = count_revisits(many().walks(), {}, config);
-    for (const CacheTraffic& plain : replay(many().walks(), {}, order, config, revisits).caches) {
+    const Revisits revisits = count_revisits(many().walks(), many().layout(), config);
+    for (const CacheTraffic& plain :
+         replay(many().walks(), many().layout(), order, config, revisits).caches) {
         const CacheConfig& cache = plain.config;
-        const Detail detail = replay_in_detail(many().walks(), {}, order, {}, {.cache = cache});
+        const Detail detail = replay_in_detail(many().walks(), many().layout(), order, {}, {.cache = cache});
         const ClassStats sum = detail.sum();
         EXPECT_EQ(sum.accesses, plain.accesses);
         EXPECT_EQ(sum.misses, plain.misses);
@@ -101,8 +104,9 @@ TEST(Detail, WithoutBuffersTotalsAreThoseOfThePlainReplay) {
         EXPECT_EQ(*plain.classes, (MissClasses{sum.compulsory, sum.capacity, sum.conflict}));
         EXPECT_LE(sum.used_bytes, detail.traffic_bytes());
         EXPECT_EQ(sum.compulsory * cache.line_bytes,
-                  compulsory_bytes(touched_nodes(many().walks()), {}, cache.line_bytes));
-        const auto buffered = replay_with_buffers(many().walks(), {}, order, {}, std::span(&cache, 1));
+                  compulsory_bytes(touched_elements(many().walks()), many().layout(), cache.line_bytes));
+        const auto buffered =
+            replay_with_buffers(many().walks(), many().layout(), order, {}, std::span(&cache, 1));
         EXPECT_EQ(buffered[0].photon_bytes, plain.traffic_bytes);
         EXPECT_EQ(buffered[0].buffer_bytes, 0u);
     }
@@ -119,11 +123,12 @@ TEST(Detail, BuffersMissAsInTheFastCachesForEveryOrdering) {
         constexpr std::uint64_t onchip = 60;
         const reorder::Ordered ordered = reorder::order(*ordering, many().work(), onchip);
         const reorder::BufferUse use = ordering->buffer_use(many().work(), onchip, ordered.permutation);
-        const auto fast = replay_with_buffers(many().walks(), {}, ordered.permutation, use, caches);
+        const auto fast =
+            replay_with_buffers(many().walks(), many().layout(), ordered.permutation, use, caches);
         ASSERT_EQ(fast.size(), caches.size());
         for (std::size_t c = 0; c < caches.size(); ++c) {
-            const Detail detail =
-                replay_in_detail(many().walks(), {}, ordered.permutation, use, {.cache = caches[c]});
+            const Detail detail = replay_in_detail(many().walks(), many().layout(), ordered.permutation, use,
+                                                   {.cache = caches[c]});
             const ClassStats photons = detail.sum(Region::photons),
                              buffers = detail.sum(Region::reorder_buffer);
             EXPECT_EQ(fast[c].config.size_bytes, caches[c].size_bytes);
@@ -146,18 +151,19 @@ TEST(Detail, InACacheThatHoldsAllBuffersShareNoLineWithPhotons) {
     const reorder::Ordered ordered = reorder::order(*hilbert, many().work(), 1000);
     const reorder::BufferUse use = hilbert->buffer_use(many().work(), 1000, ordered.permutation);
     const CacheConfig cache{1 << 20, 128, 0};
-    const Detail detail = replay_in_detail(many().walks(), {}, ordered.permutation, use, {.cache = cache});
+    const Detail detail =
+        replay_in_detail(many().walks(), many().layout(), ordered.permutation, use, {.cache = cache});
     EXPECT_EQ(detail.traffic_bytes(Region::reorder_buffer), 2 * 132 * 128u);
     EXPECT_EQ(detail.sum(Region::reorder_buffer).used_bytes, 600 * 28u);
     EXPECT_EQ(detail.traffic_bytes(Region::photons),
-              compulsory_bytes(touched_nodes(many().walks()), {}, 128));
+              compulsory_bytes(touched_elements(many().walks()), many().layout(), 128));
 }
 
 TEST(Detail, SlicesAreEqualPartsOfTheRunAndSumToTheTotals) {
     const auto order = in_capture_order(600);
     for (const std::uint64_t wanted : {1u, 7u, 600u, 5000u}) {
-        const Detail detail =
-            replay_in_detail(many().walks(), {}, order, {}, {.cache = {4096, 128, 8}, .slices = wanted});
+        const Detail detail = replay_in_detail(many().walks(), many().layout(), order, {},
+                                               {.cache = {4096, 128, 8}, .slices = wanted});
         const std::uint64_t slices = std::min<std::uint64_t>(wanted, 600);
         ASSERT_EQ(detail.slices.size(), slices);
         std::uint64_t queries = 0, accesses = 0, misses = 0;
@@ -174,19 +180,19 @@ TEST(Detail, SlicesAreEqualPartsOfTheRunAndSumToTheTotals) {
         EXPECT_EQ(misses, detail.sum().misses);
     }
     // The first query finds the cache empty, so it misses what it would miss alone.
-    const Detail each =
-        replay_in_detail(many().walks(), {}, order, {}, {.cache = {4096, 128, 8}, .slices = 600});
+    const Detail each = replay_in_detail(many().walks(), many().layout(), order, {},
+                                         {.cache = {4096, 128, 8}, .slices = 600});
     const Detail alone =
-        replay_in_detail(many().walks(), {}, in_capture_order(1), {}, {.cache = {4096, 128, 8}});
+        replay_in_detail(many().walks(), many().layout(), in_capture_order(1), {}, {.cache = {4096, 128, 8}});
     EXPECT_EQ(each.slices[0].misses, alone.sum().misses);
 }
 
 TEST(Detail, NoQueriesNoSlicesAndNoSlicesAreRefused) {
     const Traced none(10, 1, 0, 3);
-    const Detail detail = replay_in_detail(none.walks(), {}, {}, {}, {.cache = {1024, 64, 2}});
+    const Detail detail = replay_in_detail(none.walks(), none.layout(), {}, {}, {.cache = {1024, 64, 2}});
     EXPECT_TRUE(detail.slices.empty());
     EXPECT_EQ(detail.sum(), ClassStats{});
-    EXPECT_THROW(replay_in_detail(none.walks(), {}, {}, {}, {.cache = {1024, 64, 2}, .slices = 0}),
+    EXPECT_THROW(replay_in_detail(none.walks(), none.layout(), {}, {}, {.cache = {1024, 64, 2}, .slices = 0}),
                  trace::UsageError);
 }
 

@@ -22,11 +22,10 @@ using cachesim::CacheStats;
 const std::vector<CacheConfig> caches{
     {4096, 64, 4}, {2048, 32, 1}, {1024, 16, 32}, {4096, 64, cachesim::fully_associative}, {64 * 40, 64, 40}};
 
-class OnLayout : public testing::TestWithParam<HeapLayout> {
+class OnLayout : public testing::TestWithParam<Placed> {
 protected:
-    const HeapLayout& layout() const { return GetParam(); }
     std::vector<std::uint64_t> lines(const CacheConfig& cache) const {
-        return searched.lines_of(order, cache.line_bytes, layout());
+        return searched.lines_of(order, cache.line_bytes, GetParam());
     }
     CacheStats expected(const CacheConfig& cache) const {
         const std::uint64_t all = cache.size_bytes / cache.line_bytes;
@@ -41,37 +40,42 @@ protected:
 
     const Searched searched{2000, 150, 12};
     const WalkStore walks = searched.walks();
+    const Layout layout = searched.layout(GetParam());
     const std::vector<std::uint32_t> order = shuffled_queries(150, 5);
 };
 
 INSTANTIATE_TEST_SUITE_P(Layouts, OnLayout,
-                         testing::Values(HeapLayout{"tight", 0, 20, 20}, HeapLayout{"gaps", 0, 24, 20},
-                                         HeapLayout{"hot", 8, 32, 12}, HeapLayout{"wide", 4100, 80, 75},
-                                         HeapLayout{"overlapping", 72, 20, 33}),
+                         testing::Values(Placed{"tight", 0, 20, 20}, Placed{"gaps", 0, 24, 20},
+                                         Placed{"hot", 8, 32, 12}, Placed{"wide", 4100, 80, 75},
+                                         Placed{"overlapping", 72, 20, 33},
+                                         Placed{"scattered", 4099, 0, 0, true}),
                          [](const auto& layout) { return std::string(layout.param.name); });
 
 TEST_P(OnLayout, Replay) {
     const ReplayConfig config{caches, false};
-    const Replayed found = replay(walks, layout(), order, config, count_revisits(walks, layout(), config));
+    const Replayed found = replay(walks, layout, order, config, count_revisits(walks, layout, config));
     for (std::size_t c = 0; c < caches.size(); ++c) {
         EXPECT_EQ(found.caches[c].accesses, expected(caches[c]).accesses) << c;
         EXPECT_EQ(found.caches[c].misses, expected(caches[c]).misses) << c;
         EXPECT_EQ(found.caches[c].traffic_bytes, expected(caches[c]).misses * caches[c].line_bytes) << c;
     }
-    EXPECT_EQ(found.raw_bytes, found.visited_nodes * layout().used_bytes);
+    std::uint64_t raw = 0;
+    for (const std::uint32_t query : order)
+        for (const std::uint64_t node : searched.nodes_of(query)) raw += GetParam().at(node).bytes;
+    EXPECT_EQ(found.raw_bytes, raw);
 }
 
 TEST_P(OnLayout, Compulsory) {
     for (const std::uint32_t line_bytes : {16u, 64u, 256u}) {
-        const auto all = searched.lines_of(order, line_bytes, layout());
-        EXPECT_EQ(compulsory_bytes(touched_nodes(walks), layout(), line_bytes),
+        const auto all = searched.lines_of(order, line_bytes, GetParam());
+        EXPECT_EQ(compulsory_bytes(touched_elements(walks), layout, line_bytes),
                   std::set<std::uint64_t>(all.begin(), all.end()).size() * line_bytes);
     }
 }
 
 TEST_P(OnLayout, Detail) {
     for (const CacheConfig& cache : caches) {
-        const Detail detail = replay_in_detail(walks, layout(), order, {}, {cache, 7});
+        const Detail detail = replay_in_detail(walks, layout, order, {}, {cache, 7});
         EXPECT_EQ(detail.sum().accesses, expected(cache).accesses);
         EXPECT_EQ(detail.sum().misses, expected(cache).misses);
         std::uint64_t accesses = 0, misses = 0;
@@ -83,30 +87,30 @@ TEST_P(OnLayout, Detail) {
     std::set<std::uint64_t> bytes;
     for (const std::uint32_t query : order)
         for (const std::uint64_t node : searched.nodes_of(query))
-            for (std::uint64_t b = 0; b < layout().used_bytes; ++b)
-                bytes.insert(layout().base + node * layout().stride_bytes + b);
-    const Detail all = replay_in_detail(walks, layout(), order, {}, {{1 << 20, 64, 0}, 1});
+            for (std::uint64_t b = 0; b < GetParam().at(node).bytes; ++b)
+                bytes.insert(GetParam().at(node).address + b);
+    const Detail all = replay_in_detail(walks, layout, order, {}, {{1 << 20, 64, 0}, 1});
     EXPECT_EQ(all.sum().used_bytes, bytes.size());
 }
 
 /// With nothing between the searches, and with records between them at a distance: the photons' accesses are
 /// theirs.
 TEST_P(OnLayout, Buffered) {
-    const std::vector<BufferedTraffic> alone = replay_with_buffers(walks, layout(), order, {}, caches);
+    const std::vector<BufferedTraffic> alone = replay_with_buffers(walks, layout, order, {}, caches);
     for (std::size_t c = 0; c < caches.size(); ++c) {
         EXPECT_EQ(alone[c].photons, expected(caches[c])) << c;
         EXPECT_EQ(alone[c].buffers, CacheStats{}) << c;
     }
     reorder::BufferUse use;
     use.batches = reorder::SortedBatches{.record_bytes = 24, .rounds = 1, .ends = {150}};
-    for (const BufferedTraffic& traffic : replay_with_buffers(walks, layout(), order, use, caches)) {
+    for (const BufferedTraffic& traffic : replay_with_buffers(walks, layout, order, use, caches)) {
         EXPECT_EQ(traffic.photons.accesses, expected(traffic.config).accesses);
         EXPECT_GE(traffic.photons.misses, expected(traffic.config).misses);
         EXPECT_GT(traffic.buffers.misses, 0u);
     }
     // A cache for all of it: nobody takes another's place, and no line is both photons' and buffers'.
     const std::vector<CacheConfig> everything{{1 << 20, 64, 0}};
-    const BufferedTraffic together = replay_with_buffers(walks, layout(), order, use, everything)[0];
+    const BufferedTraffic together = replay_with_buffers(walks, layout, order, use, everything)[0];
     EXPECT_EQ(together.photons, expected(everything[0]));
     EXPECT_EQ(together.buffers.misses, (150u * 24 + 63) / 64);
 }
@@ -117,7 +121,7 @@ TEST_P(OnLayout, Levels) {
         level.cache.geometry = cache;
         std::vector<cachesim::Hierarchy> systems;
         systems.emplace_back(std::span(&level, 1));
-        replay_levels(walks, layout(), order, systems);
+        replay_levels(walks, layout, order, systems);
         const cachesim::LevelStats& stats = systems[0].stats(0, trace::Region::photons);
         EXPECT_EQ(stats.accesses, expected(cache).accesses);
         EXPECT_EQ(stats.misses, expected(cache).misses);
@@ -132,9 +136,9 @@ TEST_P(OnLayout, PixelTraffic) {
         const std::uint64_t all = cache.size_bytes / cache.line_bytes;
         ListedLru list(cache.sets(), cache.ways == cachesim::fully_associative ? all : cache.ways);
         for (const std::uint32_t query : order)
-            for (const std::uint64_t line : searched.lines_of(query, cache.line_bytes, layout()))
+            for (const std::uint64_t line : searched.lines_of(query, cache.line_bytes, GetParam()))
                 bytes[pixels[query]] += list.misses(line) ? cache.line_bytes : 0;
-        EXPECT_EQ(pixel_traffic(walks, layout(), order, pixels, 9, cache), bytes);
+        EXPECT_EQ(pixel_traffic(walks, layout, order, pixels, 9, cache), bytes);
     }
 }
 

@@ -15,7 +15,7 @@ constexpr cachesim::CacheConfig cache{.size_bytes = 4096, .line_bytes = 64, .way
 
 std::vector<std::uint64_t> traffic(const Searched& searched, const std::vector<std::uint32_t>& order,
                                    const std::vector<std::uint32_t>& pixels, std::uint64_t count) {
-    return pixel_traffic(searched.walks(), HeapLayout{}, order, pixels, count, cache);
+    return pixel_traffic(searched.walks(), searched.layout(), order, pixels, count, cache);
 }
 
 TEST(PixelTraffic, EachQueryIsChargedWhatAListOfItsMissesSays) {
@@ -49,8 +49,8 @@ TEST(PixelTraffic, OfAllPixelsTogetherIsTheReplays) {
     for (std::uint32_t q = 0; q < 500; ++q) pixels[q] = (q * 7) % 50;
     const std::vector<std::uint64_t> bytes = traffic(searched, order, pixels, 50);
     const ReplayConfig config{{cache}};
-    const Replayed replayed = replay(searched.walks(), HeapLayout{}, order, config,
-                                     count_revisits(searched.walks(), HeapLayout{}, config));
+    const Replayed replayed = replay(searched.walks(), searched.layout(), order, config,
+                                     count_revisits(searched.walks(), searched.layout(), config));
     EXPECT_EQ(std::accumulate(bytes.begin(), bytes.end(), std::uint64_t{0}),
               replayed.caches[0].traffic_bytes);
 }

@@ -9,8 +9,8 @@
 #include <numeric>
 #include <set>
 
-#include "spatial/nearest.h"
-#include "spatial/recording.h"
+#include "spatial/photons/nearest.h"
+#include "spatial/photons/recording.h"
 #include "tests/replay/traced.h"
 #include "tests/spatial/photons.h"
 #include "trace/error.h"
@@ -27,7 +27,7 @@ std::uint64_t misses_of_a_list(std::span<const std::uint64_t> lines, std::uint64
         std::count_if(lines.begin(), lines.end(), [&](std::uint64_t line) { return list.misses(line); }));
 }
 
-Replayed replay(const WalkStore& walks, const HeapLayout& layout, std::span<const std::uint32_t> order,
+Replayed replay(const WalkStore& walks, const Layout& layout, std::span<const std::uint32_t> order,
                 std::span<const cachesim::CacheConfig> caches) {
     const ReplayConfig config{{caches.begin(), caches.end()}, false};
     return replay(walks, layout, order, config, count_revisits(walks, layout, config));
@@ -43,7 +43,7 @@ TEST(Replay, MissesAreThoseOfSearchingAgainInThatOrderThroughAListOfLines) {
             const auto lines = traced.lines_of(order, cache.line_bytes);
             const std::uint64_t sets = cache.sets();
             const std::size_t ways = cache.ways == 0 ? cache.size_bytes / cache.line_bytes : cache.ways;
-            const Replayed replayed = replay(traced.walks(), {}, order, std::span(&cache, 1));
+            const Replayed replayed = replay(traced.walks(), traced.layout(), order, std::span(&cache, 1));
             EXPECT_EQ(replayed.caches[0].accesses, lines.size());
             EXPECT_EQ(replayed.caches[0].misses, misses_of_a_list(lines, sets, ways)) << cache.line_bytes;
             EXPECT_EQ(replayed.caches[0].traffic_bytes, replayed.caches[0].misses * cache.line_bytes);
@@ -56,11 +56,11 @@ TEST(Replay, NodesOfThreePhotonsOn64ByteLinesAreThoseDrawnByHand) {
     const Searched three(3, 1, 3), four(4, 1, 4);
     const std::vector<std::uint32_t> order{0};
     const cachesim::CacheConfig cache{1024, 64, 2};
-    EXPECT_EQ(replay(three.walks(), {}, order, std::span(&cache, 1)).caches[0].accesses, 3u);
-    EXPECT_EQ(replay(three.walks(), {}, order, std::span(&cache, 1)).caches[0].misses, 1u);
-    EXPECT_EQ(replay(four.walks(), {}, order, std::span(&cache, 1)).caches[0].accesses, 5u);
-    EXPECT_EQ(replay(four.walks(), {}, order, std::span(&cache, 1)).caches[0].misses, 2u);
-    EXPECT_EQ(replay(four.walks(), {}, order, std::span(&cache, 1)).raw_bytes, 80u);
+    EXPECT_EQ(replay(three.walks(), three.layout(), order, std::span(&cache, 1)).caches[0].accesses, 3u);
+    EXPECT_EQ(replay(three.walks(), three.layout(), order, std::span(&cache, 1)).caches[0].misses, 1u);
+    EXPECT_EQ(replay(four.walks(), four.layout(), order, std::span(&cache, 1)).caches[0].accesses, 5u);
+    EXPECT_EQ(replay(four.walks(), four.layout(), order, std::span(&cache, 1)).caches[0].misses, 2u);
+    EXPECT_EQ(replay(four.walks(), four.layout(), order, std::span(&cache, 1)).raw_bytes, 80u);
 }
 
 TEST(Replay, ACacheDoesNotKnowOfTheOthers) {
@@ -68,21 +68,22 @@ TEST(Replay, ACacheDoesNotKnowOfTheOthers) {
     const std::vector<std::uint32_t> order = shuffled_queries(200, 4);
     const std::vector<cachesim::CacheConfig> caches{
         {4096, 128, 8}, {2048, 64, 2}, {16384, 128, 0}, {4096, 128, 1}};
-    const Replayed together = replay(traced.walks(), {}, order, caches);
+    const Replayed together = replay(traced.walks(), traced.layout(), order, caches);
     for (std::size_t i = 0; i < caches.size(); ++i)
-        EXPECT_EQ(replay(traced.walks(), {}, order, std::span(caches).subspan(i, 1)).caches[0].misses,
-                  together.caches[i].misses);
+        EXPECT_EQ(
+            replay(traced.walks(), traced.layout(), order, std::span(caches).subspan(i, 1)).caches[0].misses,
+            together.caches[i].misses);
 }
 
 TEST(Replay, WhatIsAskedForDoesNotDependOnTheOrderAndCompulsoryTrafficIsTheFloor) {
     const Searched traced(2000, 400, 10);
     const cachesim::CacheConfig cache{4096, 128, 8};
-    const std::vector<bool> touched = touched_nodes(traced.walks());
-    const std::uint64_t floor = compulsory_bytes(touched, {}, 128);
+    const std::vector<bool> touched = touched_elements(traced.walks());
+    const std::uint64_t floor = compulsory_bytes(touched, traced.layout(), 128);
     std::set<std::uint64_t> accesses;
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
         const Replayed replayed =
-            replay(traced.walks(), {}, shuffled_queries(400, seed), std::span(&cache, 1));
+            replay(traced.walks(), traced.layout(), shuffled_queries(400, seed), std::span(&cache, 1));
         accesses.insert(replayed.caches[0].accesses);
         EXPECT_EQ(replayed.visited_nodes, traced.recording.visited_nodes);
         EXPECT_GE(replayed.caches[0].traffic_bytes, floor);
@@ -91,7 +92,7 @@ TEST(Replay, WhatIsAskedForDoesNotDependOnTheOrderAndCompulsoryTrafficIsTheFloor
     const auto lines = traced.lines_of(shuffled_queries(400, 1), 128);
     EXPECT_EQ(floor, std::set<std::uint64_t>(lines.begin(), lines.end()).size() * 128);
     const cachesim::CacheConfig everything{1 << 20, 128, 0};
-    EXPECT_EQ(replay(traced.walks(), {}, shuffled_queries(400, 1), std::span(&everything, 1))
+    EXPECT_EQ(replay(traced.walks(), traced.layout(), shuffled_queries(400, 1), std::span(&everything, 1))
                   .caches[0]
                   .traffic_bytes,
               floor);
@@ -103,7 +104,9 @@ TEST(Replay, MoreWaysAtEqualSetsNeverMissMore) {
     for (const std::uint32_t ways : {1u, 2u, 4u, 8u, 16u}) {
         const cachesim::CacheConfig cache{16 * ways * 128, 128, ways};
         const std::uint64_t misses =
-            replay(traced.walks(), {}, shuffled_queries(300, 1), std::span(&cache, 1)).caches[0].misses;
+            replay(traced.walks(), traced.layout(), shuffled_queries(300, 1), std::span(&cache, 1))
+                .caches[0]
+                .misses;
         EXPECT_LE(misses, before);
         before = misses;
     }
@@ -118,7 +121,8 @@ TEST(Replay, ClassesAreHillsOfEveryAccess) {
     const std::vector<std::uint32_t> order = shuffled_queries(150, 3);
     const ReplayConfig config{served, true};
     const WalkStore walks = traced.walks();
-    const Replayed replayed = replay(walks, {}, order, config, count_revisits(walks, {}, config));
+    const Layout layout = traced.layout();
+    const Replayed replayed = replay(walks, layout, order, config, count_revisits(walks, layout, config));
     for (std::size_t c = 0; c < served.size(); ++c) {
         const cachesim::CacheConfig& cache = served[c];
         const std::size_t size = cache.size_bytes / cache.line_bytes;
@@ -150,9 +154,10 @@ TEST(Replay, ClassesDoNotChangeTheMisses) {
     const Searched traced(2000, 200, 10);
     const std::vector<std::uint32_t> order = shuffled_queries(200, 8);
     const WalkStore walks = traced.walks();
+    const Layout layout = traced.layout();
     const ReplayConfig with{served, true}, without{served, false};
-    const Replayed a = replay(walks, {}, order, with, count_revisits(walks, {}, with));
-    const Replayed b = replay(walks, {}, order, without, count_revisits(walks, {}, without));
+    const Replayed a = replay(walks, layout, order, with, count_revisits(walks, layout, with));
+    const Replayed b = replay(walks, layout, order, without, count_revisits(walks, layout, without));
     for (std::size_t c = 0; c < served.size(); ++c) {
         EXPECT_EQ(a.caches[c].misses, b.caches[c].misses);
         EXPECT_EQ(a.caches[c].accesses, b.caches[c].accesses);
@@ -171,7 +176,8 @@ TEST(Replay, CachesOfMoreWaysThanAFamilyServesAgreeWithAList) {
     EXPECT_TRUE(family_serves({4096, 128, 0}));
     const ReplayConfig config{caches, true};
     const WalkStore walks = traced.walks();
-    const Replayed replayed = replay(walks, {}, order, config, count_revisits(walks, {}, config));
+    const Layout layout = traced.layout();
+    const Replayed replayed = replay(walks, layout, order, config, count_revisits(walks, layout, config));
     for (std::size_t c = 0; c < caches.size(); ++c) {
         const auto lines = traced.lines_of(order, caches[c].line_bytes);
         EXPECT_EQ(replayed.caches[c].accesses, lines.size());
@@ -179,23 +185,24 @@ TEST(Replay, CachesOfMoreWaysThanAFamilyServesAgreeWithAList) {
         EXPECT_EQ(replayed.caches[c].classes.has_value(), family_serves(caches[c]));
     }
     const ReplayConfig alone{{caches[0]}, false};
-    EXPECT_TRUE(count_revisits(walks, {}, alone).empty());
-    EXPECT_EQ(replay(walks, {}, order, alone, {}).caches[0].misses, replayed.caches[0].misses);
+    EXPECT_TRUE(count_revisits(walks, layout, alone).empty());
+    EXPECT_EQ(replay(walks, layout, order, alone, {}).caches[0].misses, replayed.caches[0].misses);
 }
 
 TEST(Replay, RevisitsOfMoreCachesServeFewer) {
     const Searched traced(2000, 200, 10);
     const std::vector<std::uint32_t> order = shuffled_queries(200, 5);
     const WalkStore walks = traced.walks();
-    const Revisits all = count_revisits(walks, {}, {served, true});
+    const Layout layout = traced.layout();
+    const Revisits all = count_revisits(walks, layout, {served, true});
     for (const cachesim::CacheConfig& cache :
          {cachesim::CacheConfig{4096, 128, 8}, cachesim::CacheConfig{1024, 64, 1},
           cachesim::CacheConfig{128 * 16, 16, 0}}) {
         for (const bool classes : {false, true}) {
             const ReplayConfig config{{cache}, classes};
             EXPECT_TRUE(serve(all, config));
-            const Replayed fewer = replay(walks, {}, order, config, all);
-            const Replayed own = replay(walks, {}, order, config, count_revisits(walks, {}, config));
+            const Replayed fewer = replay(walks, layout, order, config, all);
+            const Replayed own = replay(walks, layout, order, config, count_revisits(walks, layout, config));
             EXPECT_EQ(fewer.caches[0].misses, own.caches[0].misses);
             EXPECT_EQ(fewer.caches[0].classes, own.caches[0].classes);
         }
@@ -205,8 +212,9 @@ TEST(Replay, RevisitsOfMoreCachesServeFewer) {
 TEST(Replay, RevisitsOfOtherCachesDoNotServe) {
     const Searched searched(100, 10, 5);
     const WalkStore walks = searched.walks();
+    const Layout layout = searched.layout();
     const std::vector<cachesim::CacheConfig> caches{{4096, 128, 8}, {2048, 64, 0}};
-    const Revisits found = count_revisits(walks, {}, {caches, false});
+    const Revisits found = count_revisits(walks, layout, {caches, false});
     const auto serves = [&](const cachesim::CacheConfig& cache, bool classes) {
         return serve(found, ReplayConfig{.caches = {cache}, .classes = classes});
     };
@@ -225,10 +233,11 @@ TEST(Replay, RevisitsDoNotDependOnTheThreads) {
     // More than a range of 4096 queries for each of them.
     const Searched traced(300, 20'000, 3);
     const WalkStore walks = traced.walks();
+    const Layout layout = traced.layout();
     const ReplayConfig config{served, true};
     const auto counted_by = [&](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        return count_revisits(walks, {}, config);
+        return count_revisits(walks, layout, config);
     };
     const Revisits one = counted_by(1);
     EXPECT_EQ(counted_by(2), one);
@@ -245,7 +254,7 @@ TEST(Replay, ADamagedWalkIsRefusedByTheQuerysNumber) {
     for (std::uint32_t b = 0; b < traced.recording.walk_bytes[30]; ++b) traced.recording.walks[start + b] = 0;
     const std::vector<std::uint32_t> order = shuffled_queries(50, 1);
     try {
-        replay(traced.walks(), {}, order, {});
+        replay(traced.walks(), traced.layout(), order, {});
         FAIL();
     } catch (const trace::DataError& error) {
         EXPECT_NE(std::string(error.what()).find("query 30"), std::string::npos) << error.what();
@@ -257,8 +266,8 @@ TEST(Replay, ADamagedWalkIsRefusedByTheQuerysNumber) {
 TEST(Replay, NoQueriesNoTraffic) {
     const Searched traced(10, 0, 3);
     const cachesim::CacheConfig cache{};
-    EXPECT_EQ(replay(traced.walks(), {}, {}, std::span(&cache, 1)).caches[0].traffic_bytes, 0u);
-    EXPECT_EQ(compulsory_bytes(touched_nodes(traced.walks()), {}, 128), 0u);
+    EXPECT_EQ(replay(traced.walks(), traced.layout(), {}, std::span(&cache, 1)).caches[0].traffic_bytes, 0u);
+    EXPECT_EQ(compulsory_bytes(touched_elements(traced.walks()), traced.layout(), 128), 0u);
 }
 
 }  // namespace

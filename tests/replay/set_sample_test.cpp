@@ -24,15 +24,16 @@ using testing::HasSubstr;
 
 Replayed sampled(const Searched& searched, std::span<const std::uint32_t> order,
                  const std::vector<CacheConfig>& caches, const Sampling& sampling,
-                 const HeapLayout& layout = {}) {
+                 const Placed& layout = {}) {
     const WalkStore walks = searched.walks();
-    return SetSample(walks, layout, caches, sampling, count_line_use(walks, layout, caches)).replay(order);
+    const Layout places = searched.layout(layout);
+    return SetSample(walks, places, caches, sampling, count_line_use(walks, places, caches)).replay(order);
 }
 
 /// Misses of one cache by the class of the line, from lists.
 std::vector<double> misses_by_class(const Searched& searched, std::span<const std::uint32_t> order,
                                     const CacheConfig& cache, std::uint64_t classes,
-                                    const HeapLayout& layout = {}) {
+                                    const Placed& layout = {}) {
     std::vector<double> misses(classes);
     ListedLru list(cache.sets(), cache.ways);
     for (const std::uint64_t line : searched.lines_of(order, cache.line_bytes, layout))
@@ -42,7 +43,7 @@ std::vector<double> misses_by_class(const Searched& searched, std::span<const st
 
 /// Walks times lines that they touch, by class, of the lines that at most a tenth of the walks touches.
 std::vector<double> touches_by_class(const Searched& searched, std::uint64_t line_bytes,
-                                     std::uint64_t classes, const HeapLayout& layout = {}) {
+                                     std::uint64_t classes, const Placed& layout = {}) {
     std::map<std::uint64_t, double> walks;
     for (std::uint32_t q = 0; q < searched.points.size(); ++q) {
         const std::vector<std::uint64_t> lines = searched.lines_of(q, line_bytes, layout);
@@ -126,8 +127,9 @@ TEST(SetSample, AnyLayoutsEstimateIsTheRatioOfTwoOfItsClasses) {
     const Searched searched(2000, 120, 12);
     const auto order = shuffled_queries(120, 2);
     const std::vector<CacheConfig> caches{{16 * 4 * 32, 32, 4}, {32 * 32, 32, 1}};
-    for (const HeapLayout& layout : {HeapLayout{"gaps", 0, 24, 20}, HeapLayout{"hot", 8, 32, 12},
-                                     HeapLayout{"wide", 4100, 80, 75}, HeapLayout{"shared", 72, 20, 33}}) {
+    for (const Placed& layout :
+         {Placed{"gaps", 0, 24, 20}, Placed{"hot", 8, 32, 12}, Placed{"wide", 4100, 80, 75},
+          Placed{"shared", 72, 20, 33}, Placed{"scattered", 4099, 0, 0, true}}) {
         const std::vector<double> touches = touches_by_class(searched, 32, 16, layout);
         for (std::uint64_t seed = 0; seed < 10; ++seed) {
             const Replayed replayed = sampled(searched, order, caches, {8, seed}, layout);
@@ -184,14 +186,15 @@ TEST(SetSample, IntervalsHoldTheTruthAndEstimatesMeetAroundIt) {
     const auto order = shuffled_queries(400, 2);
     const std::vector<CacheConfig> caches{{64 * 4 * 64, 64, 4}, {256 * 64, 64, 1}, {64 * 16 * 64, 64, 16}};
     const WalkStore walks = searched.walks();
-    const LineUse use = count_line_use(walks, {}, caches);
+    const Layout layout = searched.layout();
+    const LineUse use = count_line_use(walks, layout, caches);
     const ReplayConfig config{caches, false};
-    const Replayed exact = replay(walks, {}, order, config, count_revisits(walks, {}, config));
+    const Replayed exact = replay(walks, layout, order, config, count_revisits(walks, layout, config));
     std::vector<int> held(caches.size());
     std::vector<double> sum(caches.size());
     constexpr int seeds = 60;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        const Replayed found = SetSample(walks, {}, caches, {8, seed}, use).replay(order);
+        const Replayed found = SetSample(walks, layout, caches, {8, seed}, use).replay(order);
         for (std::size_t c = 0; c < caches.size(); ++c) {
             const SampleError& error = *found.caches[c].error;
             EXPECT_LE(error.low, found.caches[c].misses);
@@ -213,7 +216,8 @@ TEST(SetSample, ASeedIsASample) {
     const auto order = shuffled_queries(150, 2);
     const std::vector<CacheConfig> caches{{64 * 4 * 64, 64, 4}, {128 * 128, 128, 1}};
     const WalkStore walks = searched.walks();
-    const LineUse use = count_line_use(walks, {}, caches);
+    const Layout layout = searched.layout();
+    const LineUse use = count_line_use(walks, layout, caches);
     const auto numbers = [&](const Replayed& replayed) {
         std::vector<std::tuple<std::uint64_t, std::uint64_t, std::uint64_t, double>> all;
         for (const CacheTraffic& t : replayed.caches)
@@ -222,9 +226,9 @@ TEST(SetSample, ASeedIsASample) {
     };
     std::set<decltype(numbers(Replayed{}))> different;
     for (const std::uint64_t seed : {0ull, 1ull, 2ull, ~0ull}) {
-        const SetSample sample(walks, {}, caches, {8, seed}, use);
+        const SetSample sample(walks, layout, caches, {8, seed}, use);
         const auto once = numbers(sample.replay(order));
-        EXPECT_EQ(numbers(SetSample(walks, {}, caches, {8, seed}, use).replay(order)), once);
+        EXPECT_EQ(numbers(SetSample(walks, layout, caches, {8, seed}, use).replay(order)), once);
         std::vector<Replayed> at_once(2);
         tbb::task_group replays;
         for (Replayed& replayed : at_once) replays.run([&] { replayed = sample.replay(order); });
@@ -259,7 +263,7 @@ TEST(LineUse, CountsTheWalksThatTouchEachLine) {
     const std::vector<CacheConfig> caches{{4096, 64, 1}, {4096, 16, 1}, {8192, 64, 2}};
     const auto counted_by = [&](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        return count_line_use(searched.walks(), {}, caches);
+        return count_line_use(searched.walks(), searched.layout(), caches);
     };
     const LineUse use = counted_by(2);
     EXPECT_EQ(counted_by(1), use);
@@ -283,7 +287,7 @@ TEST(SetSample, ALayoutsBaseMovesTheClassesWithTheLines) {
     const WalkStore walks = searched.walks();
     std::vector<CacheTraffic> found;
     for (const std::uint64_t base : {std::uint64_t{0}, std::uint64_t{1} << 20, std::uint64_t{1} << 40}) {
-        const HeapLayout layout{"moved", base, 20, 20};
+        const Layout layout = searched.layout({"moved", base, 20, 20});
         found.push_back(SetSample(walks, layout, caches, {8, 5}, count_line_use(walks, layout, caches))
                             .replay(order)
                             .caches[0]);
@@ -321,11 +325,13 @@ TEST(SetSample, RefusesWhatCannotBeSampled) {
 TEST(SetSample, ADamagedWalkIsRefused) {
     Searched searched(1000, 50, 10);
     const std::vector<CacheConfig> caches{{64 * 64, 64, 1}};
-    const LineUse use = count_line_use(searched.walks(), {}, caches);
+    const LineUse use = count_line_use(searched.walks(), searched.layout(), caches);
     std::fill_n(searched.recording.walks.begin(), searched.recording.walk_bytes[0], std::uint8_t{0});
     const WalkStore walks = searched.walks();
-    EXPECT_THROW(count_line_use(walks, {}, caches), trace::DataError);
-    EXPECT_THROW(SetSample(walks, {}, caches, {4, 1}, use).replay(shuffled_queries(50, 1)), trace::DataError);
+    const Layout layout = searched.layout();
+    EXPECT_THROW(count_line_use(walks, layout, caches), trace::DataError);
+    EXPECT_THROW(SetSample(walks, layout, caches, {4, 1}, use).replay(shuffled_queries(50, 1)),
+                 trace::DataError);
 }
 
 TEST(SetSample, NoQueriesNoMisses) {

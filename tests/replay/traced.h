@@ -9,29 +9,53 @@
 
 #include "replay/layout.h"
 #include "replay/walk_store.h"
-#include "spatial/nearest.h"
-#include "spatial/recording.h"
+#include "spatial/photons/left_balanced.h"
+#include "spatial/photons/nearest.h"
+#include "spatial/photons/recording.h"
 #include "tests/spatial/photons.h"
 
 namespace regather::replay {
+
+/// Photons in heap order, `stride_bytes` apart; or scattered, each of another length, every seventh of none.
+struct Placed {
+    std::string_view name = "heap-20";
+    std::uint64_t base = 0;
+    std::uint32_t stride_bytes = 20, used_bytes = 20;
+    bool scattered = false;
+
+    /// `node` counts from 0 and lies below 2003.
+    Extent at(std::uint64_t node) const {
+        if (scattered)
+            return {base + node * 7919 % 2003 * 64 + node % 5, static_cast<std::uint32_t>(node % 7 * 9)};
+        return {base + node * stride_bytes, used_bytes};
+    }
+    Layout on(const spatial::Structure& structure) const {
+        if (!scattered) return {std::string(name), structure, base, stride_bytes, used_bytes};
+        std::vector<Extent> extents(structure.end());
+        for (std::size_t slot = 1; slot < extents.size(); ++slot) extents[slot] = at(slot - 1);
+        return {std::string(name), structure, std::move(extents)};
+    }
+};
 
 struct Searched {
     std::vector<trace::Photon> heap;
     std::vector<trace::Vec3> points;
     std::uint32_t k;
+    std::shared_ptr<const spatial::Structure> tree;
     spatial::Recording recording;
 
     Searched(std::size_t photons, std::size_t queries, std::uint32_t nearest)
-        : heap(spatial::left_balanced(spatial::uniform_photons(photons))), k(nearest) {
+        : heap(spatial::left_balanced(spatial::uniform_photons(photons))),
+          k(nearest),
+          tree(std::make_shared<spatial::LeftBalanced>(static_cast<std::uint32_t>(photons))) {
         spatial::Numbers numbers(11);
         const auto coordinate = [&] { return numbers.uniform(); };
         for (std::size_t q = 0; q < queries; ++q)
             points.push_back({coordinate(), coordinate(), coordinate()});
         recording = spatial::record_walks(spatial::PhotonKd(heap), points, k, 1e9f);
     }
-    WalkStore walks() const {
-        return {static_cast<std::uint32_t>(heap.size()), recording.walk_bytes, recording.walks};
-    }
+    WalkStore walks() const { return {tree, recording.walk_bytes, recording.walks}; }
+    Layout layout(const Placed& placed = {}) const { return placed.on(*tree); }
     /// The nodes that one search visits, from 0.
     std::vector<std::uint32_t> nodes_of(std::uint32_t query) const {
         struct Visits {
@@ -46,18 +70,18 @@ struct Searched {
     }
     /// The lines that one search touches, one by one.
     std::vector<std::uint64_t> lines_of(std::uint32_t query, std::uint64_t line_bytes,
-                                        const HeapLayout& layout = {}) const {
+                                        const Placed& layout = {}) const {
         std::vector<std::uint64_t> lines;
         for (const std::uint64_t node : nodes_of(query)) {
-            const std::uint64_t begin = layout.base + node * layout.stride_bytes,
-                                end = begin + layout.used_bytes;
-            for (std::uint64_t line = begin / line_bytes; line * line_bytes < end; ++line)
+            const auto [begin, bytes] = layout.at(node);
+            if (bytes == 0) continue;
+            for (std::uint64_t line = begin / line_bytes; line * line_bytes < begin + bytes; ++line)
                 lines.push_back(line);
         }
         return lines;
     }
     std::vector<std::uint64_t> lines_of(std::span<const std::uint32_t> order, std::uint64_t line_bytes,
-                                        const HeapLayout& layout = {}) const {
+                                        const Placed& layout = {}) const {
         std::vector<std::uint64_t> all;
         for (const std::uint32_t query : order) {
             const std::vector<std::uint64_t> lines = lines_of(query, line_bytes, layout);

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "spatial/photon_kd.h"
-#include "spatial/recording.h"
+#include "spatial/photons/photon_kd.h"
+#include "spatial/photons/recording.h"
 #include "tests/scratch.h"
 #include "trace/error.h"
 

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "spatial/photons/left_balanced.h"
+
 namespace regather::replay {
 namespace {
 
@@ -36,7 +38,8 @@ First first(WalkLines& lines, const std::vector<std::uint32_t>& slots) {
 
 // Nodes of 20 bytes: 1 at 0-19, 2 at 20-39, 3 at 40-59, 4 at 60-79, 5 at 80-99, 6 at 100-119, 7 at 120-139.
 TEST(WalkLines, TouchesOnLinesOf64BytesAreThoseDrawnByHand) {
-    WalkLines lines({}, 64, 7);
+    const Layout layout = heap_20(spatial::LeftBalanced(7));
+    WalkLines lines(layout, 64);
     EXPECT_EQ(lines.line_bytes(), 64u);
     EXPECT_THAT(touches(lines, {1, 2, 3}), ElementsAre(0, 0, 0));
     EXPECT_THAT(touches(lines, {4}), ElementsAre(0, 1));  // over the edge
@@ -45,7 +48,8 @@ TEST(WalkLines, TouchesOnLinesOf64BytesAreThoseDrawnByHand) {
 }
 
 TEST(WalkLines, TouchesOnShortLinesAreThoseDrawnByHand) {
-    WalkLines sixteen({}, 16, 7), eight({}, 8, 7), four({}, 4, 7);
+    const Layout layout = heap_20(spatial::LeftBalanced(7));
+    WalkLines sixteen(layout, 16), eight(layout, 8), four(layout, 4);
     EXPECT_THAT(touches(sixteen, {1, 2, 3, 4, 5}), ElementsAre(0, 1, 1, 2, 2, 3, 3, 4, 5, 6));
     EXPECT_THAT(touches(eight, {1, 2, 3}), ElementsAre(0, 1, 2, 2, 3, 4, 5, 6, 7));
     EXPECT_THAT(touches(four, {2, 1}), ElementsAre(5, 6, 7, 8, 9, 0, 1, 2, 3, 4));
@@ -54,7 +58,8 @@ TEST(WalkLines, TouchesOnShortLinesAreThoseDrawnByHand) {
 TEST(WalkLines, ALayoutWithABaseAndGaps) {
     // Nodes at 1036-1059, 1068-1091: lines of 16 bytes from 1024 (64), 1040 (65), 1056 (66), 1072 (67), 1088
     // (68) on.
-    WalkLines lines({.name = "gaps", .base = 1036, .stride_bytes = 32, .used_bytes = 24}, 16, 2);
+    const Layout layout("gaps", spatial::LeftBalanced(2), 1036, 32, 24);
+    WalkLines lines(layout, 16);
     EXPECT_THAT(touches(lines, {1, 2, 1}), ElementsAre(64, 65, 66, 66, 67, 68, 64, 65, 66));
     EXPECT_EQ(first(lines, {1, 2, 1}), (First{{64, 65, 66, 67, 68}, {2, 3, 4, 0, 1}}));
 }
@@ -65,7 +70,8 @@ TEST(WalkLines, ALayoutWithABaseAndGaps) {
 // first     1, 2, 0            1, 2, 0               0, 1, 2
 // rank      1  0  2            2  0  1               2  0  1
 TEST(WalkLines, FirstTouchesAndTheRanksOfTheLastAreThoseDrawnByHand) {
-    WalkLines lines({}, 64, 7);
+    const Layout layout = heap_20(spatial::LeftBalanced(7));
+    WalkLines lines(layout, 64);
     EXPECT_EQ(first(lines, {7, 4, 1}), (First{{1, 2, 0}, {1, 0, 2}}));
     EXPECT_EQ(first(lines, {7, 1, 4}), (First{{1, 2, 0}, {2, 0, 1}}));
     EXPECT_EQ(first(lines, {1, 7, 1}), (First{{0, 1, 2}, {2, 0, 1}}));
@@ -94,9 +100,10 @@ TEST(WalkLines, EqualsLookingAtEveryByte) {
         const auto used = *rc::gen::inRange<std::uint32_t>(1, 70);
         const std::uint32_t stride = used + *rc::gen::element(0u, 1u, 12u, 100u);
         const auto base = *rc::gen::element<std::uint64_t>(0, 1, 4095, 4096, std::uint64_t{1} << 40);
-        const HeapLayout layout{"any", base, stride, used};
+        const spatial::LeftBalanced tree(photons);
+        const Layout layout("any", tree, base, stride, used);
         const std::uint32_t line_bytes = 1u << *rc::gen::inRange(0, 9);
-        WalkLines lines(layout, line_bytes, photons);
+        WalkLines lines(layout, line_bytes);
         for (int walks = *rc::gen::inRange(0, 6); walks > 0; --walks) {
             auto slots = *rc::gen::container<std::vector<std::uint32_t>>(
                 rc::gen::inRange<std::uint32_t>(1, photons + 1));
@@ -114,7 +121,8 @@ TEST(WalkLines, EqualsLookingAtEveryByte) {
 }
 
 TEST(WalkLines, ALongWalkAfterAShortOne) {
-    WalkLines lines({}, 32, 50'000);
+    const Layout layout = heap_20(spatial::LeftBalanced(50'000));
+    WalkLines lines(layout, 32);
     std::vector<std::uint32_t> slots(3);
     for (const std::size_t length : {3, 50'000, 64, 63, 128}) {
         slots.resize(length);

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "spatial/nearest.h"
+#include "spatial/photons/nearest.h"
 #include "trace/photon.h"
 
 namespace regather::spatial {

@@ -1,4 +1,4 @@
-#include "spatial/nearest.h"
+#include "spatial/photons/nearest.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

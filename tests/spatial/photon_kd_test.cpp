@@ -1,4 +1,4 @@
-#include "spatial/photon_kd.h"
+#include "spatial/photons/photon_kd.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

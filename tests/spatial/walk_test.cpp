@@ -1,4 +1,5 @@
 #include "spatial/walk.h"
+#include "spatial/heap_walk.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -7,15 +8,16 @@
 #include <algorithm>
 #include <functional>
 
-#include "spatial/nearest.h"
-#include "spatial/recording.h"
+#include "spatial/photons/left_balanced.h"
+#include "spatial/photons/nearest.h"
+#include "spatial/photons/recording.h"
 #include "tests/spatial/photons.h"
 
 namespace regather::spatial {
 namespace {
 
 /// Visited nodes, counted from 0; none for a faulty walk.
-std::vector<std::uint32_t> nodes(WalkDecoder& decoder, std::span<const std::uint8_t> walk) {
+std::vector<std::uint32_t> nodes(HeapWalkDecoder& decoder, std::span<const std::uint8_t> walk) {
     const auto [fault, slots] = decoder.decode(walk);
     std::vector<std::uint32_t> list;
     if (fault == WalkFault::none)
@@ -23,7 +25,7 @@ std::vector<std::uint32_t> nodes(WalkDecoder& decoder, std::span<const std::uint
     return list;
 }
 std::vector<std::uint32_t> nodes(std::uint32_t photons, std::span<const std::uint8_t> walk) {
-    WalkDecoder decoder(photons);
+    HeapWalkDecoder decoder(photons);
     return nodes(decoder, walk);
 }
 
@@ -54,7 +56,7 @@ TEST(Walk, TheBitsOfASmallSearchAreThoseDrawnByHand) {
 TEST(Walk, DecodingGivesTheSearchsVisitsNodeForNode) {
     ASSERT_TRUE(rc::check([] {
         const std::vector<Photon> heap = left_balanced(*any_photons(200));
-        WalkDecoder decoder(static_cast<std::uint32_t>(heap.size()));
+        HeapWalkDecoder decoder(static_cast<std::uint32_t>(heap.size()));
         const auto coordinate = [] { return static_cast<float>(*rc::gen::inRange(-4, 12)) * 0.5f; };
         NearestSet found(static_cast<std::uint32_t>(*rc::gen::inRange(0, 30)));
         RecordedSearch search;
@@ -68,7 +70,7 @@ TEST(Walk, EveryTreeSizeDecodes) {
     // All shapes of the last level, with walks from one branch to the whole tree.
     for (std::uint32_t count = 1; count <= 130; ++count) {
         const std::vector<Photon> heap = left_balanced(uniform_photons(count, count));
-        WalkDecoder decoder(count);
+        HeapWalkDecoder decoder(count);
         for (const std::uint32_t k : {1u, 5u, count}) {
             NearestSet found(k);
             RecordedSearch search;
@@ -109,7 +111,7 @@ TEST(Walk, TreesOfHundredsOfMillionsOfPhotonsDecode) {
                                                          [](int level) { return level < 20 ? 0.0f : 0.5f; }};
     for (const std::uint32_t photons : {(1u << 27) + 12345, (1u << 28) - 1, 1u << 28, (1u << 28) + 7,
                                         (3u << 28) + 5, (1u << 31) + 99, ~0u - 2, ~0u}) {
-        WalkDecoder decoder(photons);
+        HeapWalkDecoder decoder(photons);
         DrawnWalk walk{photons, {}};
         for (const auto& chance : chances)
             for (int repeat = 0; repeat < 40; ++repeat) {
@@ -128,7 +130,7 @@ TEST(Walk, TreesOfHundredsOfMillionsOfPhotonsDecode) {
 
 TEST(Walk, ManySearchesShareOneBuffer) {
     const std::vector<Photon> heap = left_balanced(clustered_photons(5000));
-    WalkDecoder decoder(5000);
+    HeapWalkDecoder decoder(5000);
     NearestSet found(50);
     RecordedSearch search;
     Numbers numbers(3);
@@ -143,6 +145,19 @@ TEST(Walk, ManySearchesShareOneBuffer) {
     EXPECT_EQ(start, search.recorder.bytes().size());
 }
 
+TEST(Walk, WithoutAStackParentsAreVisitedOnTheWayBack) {
+    // The walk drawn above: 1 2 4, back to 2, 5, back to 2 and 1.
+    const std::vector<std::uint8_t> walk{0b0010'0000};
+    const StackFree tree(7);
+    const auto decoder = tree.decoder();
+    const auto visits = decoder->decode(walk);
+    EXPECT_EQ(visits.fault, WalkFault::none);
+    EXPECT_EQ(std::vector<std::uint32_t>(visits.elements.begin(), visits.elements.end()),
+              (std::vector<std::uint32_t>{1, 2, 4, 2, 5, 2, 1}));
+    EXPECT_EQ(StackFree(1).decoder()->decode(std::vector<std::uint8_t>{0}).elements.size(), 1u);
+    EXPECT_EQ(StackFree(0).decoder()->decode({}).elements.size(), 0u);
+}
+
 TEST(Walk, ATreeOfOnePhotonTellsAVisitFromNone) {
     WalkRecorder recorder;
     recorder.visit(0);
@@ -154,7 +169,7 @@ TEST(Walk, ATreeOfOnePhotonTellsAVisitFromNone) {
 
 TEST(Walk, DamagedWalksAreToldApart) {
     const std::vector<Photon> heap = left_balanced(uniform_photons(1000));
-    WalkDecoder decoder(1000);
+    HeapWalkDecoder decoder(1000);
     NearestSet found(20);
     WalkRecorder recorder;
     nearest(PhotonKd(heap), {0.5f, 0.5f, 0.5f}, found, recorder);
@@ -164,9 +179,9 @@ TEST(Walk, DamagedWalksAreToldApart) {
     EXPECT_EQ(decoder.decode(std::span(walk).first(walk.size() - 1)).fault, WalkFault::ends_early);
     walk.push_back(0);
     EXPECT_EQ(decoder.decode(walk).fault, WalkFault::bytes_left_over);
-    EXPECT_EQ(WalkDecoder(0).decode(walk).fault, WalkFault::bytes_left_over);
+    EXPECT_EQ(HeapWalkDecoder(0).decode(walk).fault, WalkFault::bytes_left_over);
     // Two photons, lower child first (0), then its sibling, which does not exist, entered (1).
-    EXPECT_EQ(WalkDecoder(2).decode(std::vector<std::uint8_t>{0b0100'0000}).fault,
+    EXPECT_EQ(HeapWalkDecoder(2).decode(std::vector<std::uint8_t>{0b0100'0000}).fault,
               WalkFault::enters_missing_child);
 }
 
@@ -174,8 +189,9 @@ TEST(Walk, ArbitraryBytesNeverLeaveTheTree) {
     ASSERT_TRUE(rc::check([] {
         const auto photons = static_cast<std::uint32_t>(*rc::gen::inRange(1, 2000));
         const auto bytes = *rc::gen::arbitrary<std::vector<std::uint8_t>>();
-        WalkDecoder decoder(photons);
-        for (const std::uint32_t slot : decoder.decode(bytes).slots) RC_ASSERT(slot >= 1 && slot <= photons);
+        HeapWalkDecoder decoder(photons);
+        for (const std::uint32_t slot : decoder.decode(bytes).elements)
+            RC_ASSERT(slot >= 1 && slot <= photons);
     }));
 }
 

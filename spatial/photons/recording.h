@@ -1,10 +1,11 @@
-// spatial/recording.h -- searches many points of one tree, in parallel, and keeps their walks.
+// spatial/photons/recording.h -- searches many points of one tree, in parallel, and keeps their walks.
 #pragma once
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "spatial/photon_kd.h"
+#include "spatial/photons/bucket_kd.h"
+#include "spatial/photons/photon_kd.h"
 
 namespace regather::spatial {
 
@@ -18,5 +19,6 @@ struct Recording {
 /// The walks of the `k` nearest photons within `radius` [scene units] of each point; a point that is not
 /// finite has an empty walk. The same on any number of threads.
 Recording record_walks(const PhotonKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius);
+Recording record_walks(const BucketKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius);
 
 }  // namespace regather::spatial

@@ -1,6 +1,7 @@
-// spatial/photon_kd.h -- the left-balanced kd-tree of photons (Bentley 1975; Jensen 2001, sections 5.2
-// and 6.3). The tree is an array in heap order and holds nothing but photons: each node is one, children of
-// the i-th node (counted from 1) are the 2i-th and 2i+1-th. The split axis lies in the photon's flags.
+// spatial/photons/photon_kd.h -- the left-balanced kd-tree of photons (Bentley 1975; Jensen 2001,
+// sections 5.2 and 6.3). The tree is an array in heap order and holds nothing but photons: each node is one,
+// children of the i-th node (counted from 1) are the 2i-th and 2i+1-th. The split axis lies in the photon's
+// flags.
 #pragma once
 #include <cstdint>
 #include <span>

@@ -1,4 +1,5 @@
-// reorder/parameters.h -- the parameters of an ordering as its spec writes them: "tile=16,bits=16".
+// trace/parameters.h -- the parameters of an ordering, a layout or a structure as its spec writes them:
+// "tile=16,bits=16".
 #pragma once
 #include <cstdint>
 #include <initializer_list>
@@ -8,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace regather::reorder {
+namespace regather::trace {
 
 struct Parameter {
     std::string_view name;
@@ -20,7 +21,7 @@ class Parameters {
 public:
     /// Throws trace::UsageError (unknown, twice, without value) that names the nearest and lists the known
     /// ones.
-    Parameters(std::string_view ordering, std::span<const Parameter> known, std::string_view text);
+    Parameters(std::string_view owner, std::span<const Parameter> known, std::string_view text);
 
     std::optional<std::uint64_t> given(std::string_view name) const;  ///< Nothing when it has no value.
     std::uint64_t number(std::string_view name) const;                ///< It has a value.
@@ -32,16 +33,16 @@ public:
     /// Which of `words` the value is.
     std::size_t choice(std::string_view name, std::initializer_list<std::string_view> words) const;
 
-    /// Every parameter that has a value, as it is now, in the order of the catalogue.
+    /// Every parameter that has a value, as it is now, in the order of the table.
     std::string text() const;
 
 private:
     std::string& value(std::string_view name);
     const std::string& value(std::string_view name) const;
 
-    std::string ordering_;
+    std::string owner_;
     std::span<const Parameter> known_;
     std::vector<std::string> values_;  // beside known_
 };
 
-}  // namespace regather::reorder
+}  // namespace regather::trace

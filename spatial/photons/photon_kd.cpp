@@ -1,4 +1,4 @@
-#include "spatial/photon_kd.h"
+#include "spatial/photons/photon_kd.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>

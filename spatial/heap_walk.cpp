@@ -1,26 +1,20 @@
-#include "spatial/walk.h"
+#include "spatial/heap_walk.h"
 
 #include <immintrin.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
+
+#include "spatial/walk_bits.h"
 
 namespace regather::spatial {
 namespace {
 
-constexpr std::size_t padding = 24;  // bytes that may be read past a walk
-constexpr std::size_t margin = 64;   // nodes that one step may write
-constexpr int whole_bits = 57;       // that bits_at() gives at least
-constexpr int subtree_bits = 6;      // that a subtree of seven nodes takes at most
+constexpr std::size_t margin = 64;  // nodes that one step may write
+constexpr int subtree_bits = 6;     // that a subtree of seven nodes takes at most
 constexpr std::size_t small_subtrees = std::size_t{1} << subtree_bits;  // where those of three nodes start
-
-/// The bits from `position` on, at the top of the word.
-std::uint64_t bits_at(const std::uint8_t* bytes, std::uint64_t position) {
-    std::uint64_t word;
-    std::memcpy(&word, bytes + position / 8, 8);
-    return __builtin_bswap64(word) << (position % 8);
-}
 
 /// to[i] = path >> (steps - i) for i = 0 .. steps; writes a multiple of 8 entries.
 void write_prefixes(std::uint32_t path, int steps, std::uint32_t* to) {
@@ -64,7 +58,7 @@ const std::array<SubtreeVisits, small_subtrees + 4>& subtree_table() {
 }  // namespace
 
 /// A place in a walk, for the subtrees that are in no table.
-struct WalkDecoder::Cursor {
+struct HeapWalkDecoder::Cursor {
     const std::uint8_t* bytes;
     std::uint64_t position, total;  // bits
     std::size_t count;
@@ -72,31 +66,31 @@ struct WalkDecoder::Cursor {
     bool next() { return bits_at(bytes, std::min(position++, total)) >> 63 != 0; }
 };
 
-WalkDecoder::WalkDecoder(std::uint32_t photons)
-    : photons_(photons), cut_(static_cast<int>(std::bit_width(photons)) - 3), visited_(4096) {}
+HeapWalkDecoder::HeapWalkDecoder(std::uint32_t nodes)
+    : nodes_(nodes), cut_(static_cast<int>(std::bit_width(nodes)) - 3), visited_(4096) {}
 
 /// The grammar, bit by bit.
-void WalkDecoder::subtree(Cursor& cursor, std::uint64_t slot) {
+void HeapWalkDecoder::subtree(Cursor& cursor, std::uint64_t slot) {
     if (cursor.fault != WalkFault::none || cursor.position > cursor.total) return;
     if (cursor.count + margin > visited_.size()) visited_.resize(2 * visited_.size());
     visited_[cursor.count++] = static_cast<std::uint32_t>(slot);
-    if (2 * slot > photons_) return;
+    if (2 * slot > nodes_) return;
     const std::uint64_t near = 2 * slot + (cursor.next() ? 1 : 0), far = near ^ 1;
-    if (near <= photons_) subtree(cursor, near);
+    if (near <= nodes_) subtree(cursor, near);
     if (cursor.fault != WalkFault::none || !cursor.next()) return;
-    if (far <= photons_) {
+    if (far <= nodes_) {
         subtree(cursor, far);
     } else {
         cursor.fault = WalkFault::enters_missing_child;
     }
 }
 
-WalkDecoder::Visits WalkDecoder::decode(std::span<const std::uint8_t> walk) {
+WalkDecoder::Visits HeapWalkDecoder::decode(std::span<const std::uint8_t> walk) {
     if (walk.empty()) return {WalkFault::none, {}};
-    if (photons_ == 0) return {WalkFault::bytes_left_over, {}};
-    if (padded_.size() < walk.size() + padding) padded_.resize(2 * (walk.size() + padding));
+    if (nodes_ == 0) return {WalkFault::bytes_left_over, {}};
+    if (padded_.size() < walk.size() + walk_padding) padded_.resize(2 * (walk.size() + walk_padding));
     std::memcpy(padded_.data(), walk.data(), walk.size());
-    std::memset(padded_.data() + walk.size(), 0, padding);
+    std::memset(padded_.data() + walk.size(), 0, walk_padding);
     Cursor end{padded_.data(), 0, 8 * walk.size(), 0, WalkFault::none};
 
     if (cut_ < 0) {
@@ -104,7 +98,7 @@ WalkDecoder::Visits WalkDecoder::decode(std::span<const std::uint8_t> walk) {
     } else {
         const SubtreeVisits* const table = subtree_table().data();
         const std::uint8_t* const bytes = padded_.data();
-        const std::uint64_t photons = photons_, total = end.total;
+        const std::uint64_t nodes = nodes_, total = end.total;
         // One step takes at most a near and a far bit for each level above the cut, and a subtree's bits.
         const int most_bits = 2 * cut_ + subtree_bits + 1;
         const bool refetch = most_bits > whole_bits;
@@ -130,7 +124,7 @@ WalkDecoder::Visits WalkDecoder::decode(std::span<const std::uint8_t> walk) {
 
             // The subtree.
             int taken = steps;
-            const bool seven = 4 * slot + 3 <= photons, three = 4 * slot > photons && 2 * slot + 1 <= photons;
+            const bool seven = 4 * slot + 3 <= nodes, three = 4 * slot > nodes && 2 * slot + 1 <= nodes;
             if (seven || three) {
                 const SubtreeVisits& visits =
                     table[seven ? bits >> (64 - subtree_bits) : small_subtrees + (bits >> 62)];

@@ -1,4 +1,4 @@
-#include "spatial/photon_buckets.h"
+#include "spatial/photons/photon_buckets.h"
 
 #include <fmt/format.h>
 #include <immintrin.h>

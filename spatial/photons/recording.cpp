@@ -1,15 +1,17 @@
-#include "spatial/recording.h"
+#include "spatial/photons/recording.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 
-#include "spatial/nearest.h"
+#include "spatial/photons/nearest.h"
 #include "spatial/walk.h"
 
 namespace regather::spatial {
+namespace {
 
-Recording record_walks(const PhotonKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius) {
+template <class Tree>
+Recording recorded(const Tree& tree, std::span<const Vec3> points, std::uint32_t k, float radius) {
     constexpr std::size_t chunk_points = 4096;
     struct Chunk {
         std::vector<std::uint8_t> walks;
@@ -36,6 +38,16 @@ Recording record_walks(const PhotonKd& tree, std::span<const Vec3> points, std::
         all.visited_nodes += chunk.visited;
     }
     return all;
+}
+
+}  // namespace
+
+Recording record_walks(const PhotonKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius) {
+    return recorded(tree, points, k, radius);
+}
+
+Recording record_walks(const BucketKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius) {
+    return recorded(tree, points, k, radius);
 }
 
 }  // namespace regather::spatial

@@ -1,10 +1,10 @@
-// spatial/photon_buckets.h -- a kd-tree of photons for searching fast on this machine's CPU. Leaves are
-// buckets of 16 photons as a structure of arrays; three binary levels are one inner node, whose eight
+// spatial/photons/photon_buckets.h -- a kd-tree of photons for searching fast on this machine's CPU. Leaves
+// are buckets of 16 photons as a structure of arrays; three binary levels are one inner node, whose eight
 // children are known by the tight boxes of their photons, so that eight distances are one vector operation.
 // Candidates are appended to a buffer and pruned by selection when it is full (after Garcia et al., "Fast k
 // nearest neighbor search using GPU", 2008, who sort instead), not kept in a heap. Finds what
-// spatial/nearest.h finds, photon for photon. Written for AVX2, the baseline of the build: lanes of 8 on
-// every machine. Lengths in scene units.
+// spatial/photons/nearest.h finds, photon for photon. Written for AVX2, the baseline of the build: lanes of 8
+// on every machine. Lengths in scene units.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "spatial/nearest.h"
+#include "spatial/photons/nearest.h"
 #include "trace/photon.h"
 
 namespace regather::spatial {
@@ -58,10 +58,10 @@ public:
     static constexpr std::uint32_t bucket_photons = 16, fan_out = 8;
 
     /// The i-th photon is node i of what a search finds: given the photons of a left-balanced tree in heap
-    /// order, the numbers are those of spatial/nearest.h. Copies what it needs. Splits at the longest side of
-    /// the photons' box into full buckets; the last one alone may have room left. Parallel tasks; the tree
-    /// depends on the input alone. Throws trace::DataError for a photon at NaN or infinity and for 2^31 or
-    /// more photons.
+    /// order, the numbers are those of spatial/photons/nearest.h. Copies what it needs. Splits at the longest
+    /// side of the photons' box into full buckets; the last one alone may have room left. Parallel tasks; the
+    /// tree depends on the input alone. Throws trace::DataError for a photon at NaN or infinity and for 2^31
+    /// or more photons.
     explicit PhotonBuckets(std::span<const Photon> photons);
 
     std::uint32_t size() const { return size_; }

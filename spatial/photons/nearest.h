@@ -1,6 +1,6 @@
-// spatial/nearest.h -- the k nearest photons of a point: near child first, far child if it can still help
-// (Jensen 2001, section 6.3.1), with the exact running bound of a max-heap. One search serves the renderer,
-// which passes Unheard and pays nothing, and the recorder of walks (spatial/walk.h), which listens.
+// spatial/photons/nearest.h -- the k nearest photons of a point: near child first, far child if it can still
+// help (Jensen 2001, section 6.3.1), with the exact running bound of a max-heap. One search serves the
+// renderer, which passes Unheard and pays nothing, and the recorder of walks (spatial/walk.h), which listens.
 #pragma once
 #include <algorithm>
 #include <bit>
@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "spatial/photon_kd.h"
+#include "spatial/photons/photon_kd.h"
 
 namespace regather::spatial {
 

@@ -1,4 +1,4 @@
-#include "reorder/parameters.h"
+#include "trace/parameters.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "trace/text.h"
 #include "trace/word.h"
 
-namespace regather::reorder {
+namespace regather::trace {
 namespace {
 
 std::vector<std::string_view> names_of(std::span<const Parameter> known) {
@@ -23,8 +23,8 @@ std::vector<std::string_view> names_of(std::span<const Parameter> known) {
 
 }  // namespace
 
-Parameters::Parameters(std::string_view ordering, std::span<const Parameter> known, std::string_view text)
-    : ordering_(ordering), known_(known) {
+Parameters::Parameters(std::string_view owner, std::span<const Parameter> known, std::string_view text)
+    : owner_(owner), known_(known) {
     for (const Parameter& parameter : known) values_.emplace_back(parameter.default_value);
     std::vector<bool> set(known.size());
     while (!text.empty()) {
@@ -36,22 +36,18 @@ Parameters::Parameters(std::string_view ordering, std::span<const Parameter> kno
         const std::string_view name = item.substr(0, equals);
         const std::vector<std::string_view> names = names_of(known);
         if (names.empty())
-            throw trace::UsageError(
-                fmt::format("{}: parameter {} found, it takes none", ordering, trace::in_quotes(item)));
+            throw UsageError(fmt::format("{}: parameter {} found, it takes none", owner, in_quotes(item)));
         const auto found = std::find(names.begin(), names.end(), name);
         if (found == names.end())
-            throw trace::UsageError(fmt::format(
-                "{}: unknown parameter {}; nearest: {}; known: {}", ordering, trace::in_quotes(name),
-                trace::nearest_words(name, names).front(), trace::listed(names)));
+            throw UsageError(fmt::format("{}: unknown parameter {}; nearest: {}; known: {}", owner,
+                                         in_quotes(name), nearest_words(name, names).front(), listed(names)));
         const auto index = static_cast<std::size_t>(found - names.begin());
-        if (set[index])
-            throw trace::UsageError(fmt::format("{}: parameter {} is given twice", ordering, name));
+        if (set[index]) throw UsageError(fmt::format("{}: parameter {} is given twice", owner, name));
         if (equals + 1 >= item.size())
-            throw trace::UsageError(
-                fmt::format("{}: parameter {} has no value, expected {}=...", ordering, name, name));
+            throw UsageError(
+                fmt::format("{}: parameter {} has no value, expected {}=...", owner, name, name));
         if (!last && text.empty())
-            throw trace::UsageError(
-                fmt::format("{}: nothing after the comma, expected a parameter", ordering));
+            throw UsageError(fmt::format("{}: nothing after the comma, expected a parameter", owner));
         set[index] = true;
         values_[index] = item.substr(equals + 1);
     }
@@ -75,8 +71,8 @@ std::optional<std::uint64_t> Parameters::given(std::string_view name) const {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     const bool one_spelling = text == "0" || text.front() != '0';  // equal orderings have equal specs
     if (error != std::errc{} || end != text.data() + text.size() || !one_spelling)
-        throw trace::UsageError(fmt::format("{}: {} is {}, expected a whole number below 2^64", ordering_,
-                                            name, trace::in_quotes(text)));
+        throw UsageError(
+            fmt::format("{}: {} is {}, expected a whole number below 2^64", owner_, name, in_quotes(text)));
     return number;
 }
 
@@ -88,8 +84,7 @@ std::optional<std::uint32_t> Parameters::given_count(std::string_view name) cons
     const std::optional<std::uint64_t> number = given(name);
     if (!number) return {};
     if (*number > std::numeric_limits<std::uint32_t>::max())
-        throw trace::UsageError(
-            fmt::format("{}: {} is {}, expected less than 2^32", ordering_, name, *number));
+        throw UsageError(fmt::format("{}: {} is {}, expected less than 2^32", owner_, name, *number));
     return static_cast<std::uint32_t>(*number);
 }
 
@@ -105,10 +100,10 @@ std::uint32_t Parameters::count_or(std::string_view name, std::uint32_t fallback
 std::size_t Parameters::choice(std::string_view name, std::initializer_list<std::string_view> words) const {
     const auto found = std::find(words.begin(), words.end(), std::string_view(value(name)));
     if (found == words.end())
-        throw trace::UsageError(fmt::format(
-            "{}: {} is {}; nearest: {}; known: {}", ordering_, name, trace::in_quotes(value(name)),
-            trace::nearest_words(value(name), {words.begin(), words.size()}).front(),
-            trace::listed({words.begin(), words.size()})));
+        throw UsageError(fmt::format("{}: {} is {}; nearest: {}; known: {}", owner_, name,
+                                     in_quotes(value(name)),
+                                     nearest_words(value(name), {words.begin(), words.size()}).front(),
+                                     listed({words.begin(), words.size()})));
     return static_cast<std::size_t>(found - words.begin());
 }
 
@@ -120,4 +115,4 @@ std::string Parameters::text() const {
     return text;
 }
 
-}  // namespace regather::reorder
+}  // namespace regather::trace

@@ -1,0 +1,40 @@
+// regather structures -- what photons can be searched in.
+#include "spatial/photons/structures.h"
+
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/commands.h"
+#include "results/table.h"
+
+namespace regather::cli {
+namespace {
+
+struct Nothing {};
+
+void run(const Nothing&, const Console& console) {
+    using results::Align;
+    results::Table all({{"structure", Align::left},
+                        {"version", Align::right},
+                        {"parameters", Align::left},
+                        {"what", Align::left}});
+    for (const spatial::StructureEntry& entry : spatial::structures()) {
+        std::string parameters;
+        for (const trace::Parameter& parameter : entry.parameters)
+            parameters += fmt::format("{}{}={}", parameters.empty() ? "" : ",", parameter.name,
+                                      parameter.default_value);
+        all.add({std::string(entry.name), fmt::format("{}", entry.version), parameters,
+                 std::string(entry.summary)});
+    }
+    console.print("{}", results::text_of(all));
+}
+
+}  // namespace
+
+void add_structures(Command& command) {
+    command.footer(
+        "Example:\n  regather walk out/room/trace --structure median-kd:leaf=8 -o out/room-median");
+    command.action(std::make_shared<Nothing>(), run);
+}
+
+}  // namespace regather::cli

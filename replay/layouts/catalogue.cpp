@@ -1,0 +1,160 @@
+#include "replay/layouts/catalogue.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <utility>
+
+#include "replay/layouts/placement.h"
+#include "spatial/photons/left_balanced.h"
+#include "trace/error.h"
+#include "trace/range.h"
+#include "trace/text.h"
+#include "trace/word.h"
+
+namespace regather::replay {
+namespace {
+
+constexpr std::uint64_t region_alignment = 4096;
+
+constexpr std::array<LayoutOrder, 5> orders{{
+    {"heap", "by number: a left-balanced tree level by level, children of i at 2i and 2i + 1"},
+    {"depth-first", "each element before those below it, subtree by subtree"},
+    {"breadth-first", "level by level"},
+    {"van-emde-boas", "the upper half of the levels, then each subtree below, again so"},
+    {"clusters", "groups of an element and what hangs below it that fill a line (line=128)"},
+}};
+
+constexpr std::array<PhotonRecord, 3> records{{
+    {"20", "as in Jensen 2001: position, power, direction, flags", 20, 20},
+    {"32", "the same, padded to 32 bytes", 32, 20},
+    {"16", "compressed to 16 bytes", 16, 16},
+}};
+
+constexpr trace::Parameter parameters[] = {
+    {"line", "128", "bytes of the line that a cluster fills, a power of two from 16 to 4096"},
+    {"node", "8", "bytes of an inner node that holds no photon, 4 to 1024"},
+    {"top", "0", "levels from the root that are kept on chip, 0 to 40"},
+};
+
+template <class Table>
+const auto& row(const Table& table, std::string_view what, std::string_view word) {
+    std::vector<std::string_view> names;
+    for (const auto& entry : table) names.push_back(entry.name);
+    const auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end())
+        throw trace::UsageError(fmt::format("layout: unknown {} {}; nearest: {}; known: {}", what,
+                                            trace::in_quotes(word), trace::nearest_words(word, names).front(),
+                                            trace::listed(names)));
+    return table[static_cast<std::size_t>(found - names.begin())];
+}
+
+/// What elements take and what visits of them read, in bytes.
+struct Sizes {
+    const spatial::Structure& structure;
+    const PhotonRecord& record;
+    std::uint32_t node_bytes;
+
+    trace::Region region(std::uint32_t element) const {
+        const std::span<const spatial::ElementRange> ranges = structure.ranges();
+        std::size_t r = 0;
+        while (r + 1 < ranges.size() && element >= ranges[r + 1].first) ++r;
+        return ranges[r].region;
+    }
+    std::uint32_t taken(std::uint32_t element) const {
+        if (region(element) == trace::Region::nodes) return node_bytes;
+        return record.stride_bytes * structure.records(element);
+    }
+    /// The padding behind the last photon is not read.
+    std::uint32_t used(std::uint32_t element) const {
+        const std::uint32_t bytes = taken(element);
+        if (region(element) == trace::Region::nodes || bytes == 0) return bytes;
+        return bytes - (record.stride_bytes - record.used_bytes);
+    }
+};
+
+/// Addresses of a placement's elements, region by region.
+std::vector<Extent> extents_of(const Placement& placement, const Sizes& sizes, std::uint32_t line_bytes,
+                               std::uint32_t top) {
+    const spatial::Structure& structure = sizes.structure;
+    std::vector<Extent> extents(structure.end());
+    std::uint64_t address = 0;
+    for (const spatial::ElementRange& range : structure.ranges()) {
+        address = (address + region_alignment - 1) / region_alignment * region_alignment;
+        const auto here = [&](std::uint32_t e) { return e >= range.first && e < range.first + range.count; };
+        std::size_t group = 0;
+        for (std::size_t i = 0; i < placement.elements.size(); ++i) {
+            if (group < placement.group_begins.size() && placement.group_begins[group] == i) {
+                ++group;
+                const std::size_t end = group < placement.group_begins.size() ? placement.group_begins[group]
+                                                                              : placement.elements.size();
+                std::uint64_t bytes = 0;
+                for (std::size_t g = i; g < end; ++g)
+                    if (here(placement.elements[g])) bytes += sizes.taken(placement.elements[g]);
+                if (bytes <= line_bytes && address % line_bytes + bytes > line_bytes)
+                    address = (address + line_bytes - 1) / line_bytes * line_bytes;
+            }
+            const std::uint32_t e = placement.elements[i];
+            if (!here(e)) continue;
+            extents[e] = {address, structure.level(e) < top ? 0 : sizes.used(e)};
+            address += sizes.taken(e);
+        }
+    }
+    return extents;
+}
+
+}  // namespace
+
+std::span<const LayoutOrder> layout_orders() {
+    return orders;
+}
+std::span<const PhotonRecord> photon_records() {
+    return records;
+}
+std::span<const trace::Parameter> layout_parameters() {
+    return parameters;
+}
+
+Layout make_layout(std::string_view spec, const spatial::Structure& structure) {
+    const std::size_t colon = std::min(spec.find(':'), spec.size());
+    const std::string_view name = spec.substr(0, colon);
+    const std::size_t dash = name.rfind('-');
+    if (dash == std::string_view::npos)
+        throw trace::UsageError(
+            fmt::format("layout: found {}, expected ORDER-RECORD such as heap-20", trace::in_quotes(spec)));
+    const LayoutOrder& order = row(orders, "order", name.substr(0, dash));
+    const PhotonRecord& record = row(records, "record", name.substr(dash + 1));
+    const trace::Parameters given(name, parameters, spec.substr(std::min(colon + 1, spec.size())));
+    const std::uint32_t line = given.count("line"), node = given.count("node"), top = given.count("top");
+    trace::require_range(name, "line", line, 16, 4096);
+    trace::require_range(name, "node", node, 4, 1024);
+    trace::require_range(name, "top", top, 0, 40);
+    if (!std::has_single_bit(line))
+        throw trace::UsageError(fmt::format("{}: line: found {}, expected a power of two", name, line));
+
+    const Sizes sizes{structure, record, node};
+    const bool clusters = order.name == "clusters";
+    const std::span<const spatial::ElementRange> ranges = structure.ranges();
+    const bool nodes = std::any_of(ranges.begin(), ranges.end(),
+                                   [](const auto& r) { return r.region == trace::Region::nodes; });
+    std::string text(name);
+    auto tell = [&, colon = true](std::string_view parameter, std::uint32_t value) mutable {
+        text += fmt::format("{}{}={}", std::exchange(colon, false) ? ":" : ",", parameter, value);
+    };
+    if (clusters) tell("line", line);
+    if (nodes) tell("node", node);
+    if (top > 0) tell("top", top);
+    if (order.name == "heap" && top == 0 && dynamic_cast<const spatial::LeftBalanced*>(&structure))
+        return {std::move(text), structure, 0, record.stride_bytes, record.used_bytes};
+    const Placement placement =
+        order.name == "heap"            ? heap_order(structure)
+        : order.name == "depth-first"   ? depth_first_order(structure)
+        : order.name == "breadth-first" ? breadth_first_order(structure)
+        : clusters ? clustered_order(structure, line, [&](std::uint32_t e) { return sizes.taken(e); })
+                   : van_emde_boas_order(structure);
+    return {std::move(text), structure, extents_of(placement, sizes, line, top)};
+}
+
+}  // namespace regather::replay

@@ -1,0 +1,34 @@
+// replay/layouts/catalogue.h -- the layouts in two tables: in which order memory holds the elements, and what
+// a record of one is. A spec names one of each and parameters: "heap-20", "van-emde-boas-32",
+// "clusters-20:line=64", "depth-first-20:top=8".
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "replay/layout.h"
+#include "trace/parameters.h"
+
+namespace regather::replay {
+
+struct LayoutOrder {
+    std::string_view name, summary;
+};
+std::span<const LayoutOrder> layout_orders();
+
+/// A photon in memory.
+struct PhotonRecord {
+    std::string_view name, summary;
+    std::uint32_t stride_bytes, used_bytes;  ///< From one photon to the next; what a visit reads.
+};
+std::span<const PhotonRecord> photon_records();
+std::span<const trace::Parameter> layout_parameters();
+
+/// The layout that a spec names. The regions of a structure follow one another in the order of its ranges,
+/// each from a multiple of 4096 on, the first from 0. Parameters: `line` [bytes], a power of two, for
+/// clusters (128); `top`, so many levels from the root are kept on chip and read nothing (0). Throws
+/// trace::UsageError for an unknown word (with the nearest and all known ones) or a value out of range.
+Layout make_layout(std::string_view spec, const spatial::Structure& structure);
+
+}  // namespace regather::replay

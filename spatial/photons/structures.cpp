@@ -1,0 +1,230 @@
+#include "spatial/photons/structures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "spatial/photons/bucket_kd.h"
+#include "spatial/photons/left_balanced.h"
+#include "spatial/photons/photon_kd.h"
+#include "trace/error.h"
+#include "trace/range.h"
+#include "trace/text.h"
+#include "trace/word.h"
+
+namespace regather::spatial {
+namespace {
+
+constexpr trace::Parameter bucket_parameters[] = {{"leaf", "8", "most photons of a leaf, 1 to 64"}};
+
+// --- the left-balanced tree
+// -----------------------------------------------------------------------------------
+
+template <class Tree>
+class HeapSearch final : public PhotonSearch {
+public:
+    explicit HeapSearch(std::span<const Photon> heap)
+        : tree_(heap), structure_(std::make_shared<Tree>(tree_.size())) {}
+    std::shared_ptr<const Structure> structure() const override { return structure_; }
+    Recording record(std::span<const Vec3> points, std::uint32_t k, float radius) const override {
+        Recording recording = record_walks(tree_, points, k, radius);
+        if constexpr (std::same_as<Tree, StackFree>) recording.visited_nodes = visits(recording);
+        return recording;
+    }
+    std::span<const std::uint32_t> photon_at() const override { return {}; }
+    void store(trace::TraceWriter&) const override {}
+
+private:
+    /// What the walks decode to.
+    std::uint64_t visits(const Recording& recording) const {
+        const std::unique_ptr<WalkDecoder> decoder = structure_->decoder();
+        std::span<const std::uint8_t> walks = recording.walks;
+        std::uint64_t sum = 0;
+        for (const std::uint32_t bytes : recording.walk_bytes) {
+            sum += decoder->decode(walks.first(bytes)).elements.size();
+            walks = walks.subspan(bytes);
+        }
+        return sum;
+    }
+
+    PhotonKd tree_;
+    std::shared_ptr<const Structure> structure_;
+};
+
+template <class Tree>
+std::unique_ptr<PhotonSearch> build_heap(std::span<const Photon> heap, const trace::Parameters&, std::string,
+                                         std::uint32_t, float) {
+    return std::make_unique<HeapSearch<Tree>>(heap);
+}
+
+template <class Tree>
+std::shared_ptr<const Structure> open_heap(trace::TraceReader& trace) {
+    return std::make_shared<Tree>(static_cast<std::uint32_t>(trace.column<Photon>("photon").size()));
+}
+
+// --- kd-trees with buckets
+// ------------------------------------------------------------------------------------
+
+class BucketSearch final : public PhotonSearch {
+public:
+    BucketSearch(std::span<const Photon> photons, const BucketKd::Config& config, std::string text)
+        : tree_(photons, config, std::move(text)) {}
+    std::shared_ptr<const Structure> structure() const override { return tree_.share_shape(); }
+    Recording record(std::span<const Vec3> points, std::uint32_t k, float radius) const override {
+        return record_walks(tree_, points, k, radius);
+    }
+    std::span<const std::uint32_t> photon_at() const override { return tree_.photon_at(); }
+    void store(trace::TraceWriter& writer) const override {
+        writer.column("tree_child").append(tree_.shape().children());
+        writer.column("tree_leaf_begin").append(tree_.shape().leaf_begin());
+        writer.column("tree_photon").append(tree_.photon_at());
+    }
+
+private:
+    BucketKd tree_;
+};
+
+/// What cells are grown by: the radius of the searches, or, without one, the median distance of the k-th
+/// nearest photon of 256 photons.
+float expected_radius(std::span<const Photon> heap, std::uint32_t k, float radius) {
+    if (std::isfinite(radius) || heap.empty()) return std::isfinite(radius) ? radius : 0;
+    constexpr std::size_t most_samples = 256;
+    const PhotonKd tree(heap);
+    const std::size_t samples = std::min(most_samples, heap.size());
+    NearestSet found(std::min(k, tree.size()));
+    std::vector<float> squares;
+    for (std::size_t i = 0; i < samples; ++i) {
+        nearest(tree, heap[i * heap.size() / samples].position, found);
+        squares.push_back(found.disc_radius2());
+    }
+    std::nth_element(squares.begin(), squares.begin() + static_cast<std::ptrdiff_t>(samples / 2),
+                     squares.end());
+    return std::sqrt(squares[samples / 2]);
+}
+
+template <SplitRule rule>
+std::unique_ptr<PhotonSearch> build_buckets(std::span<const Photon> heap, const trace::Parameters& given,
+                                            std::string text, std::uint32_t k, float radius) {
+    return std::make_unique<BucketSearch>(
+        heap,
+        BucketKd::Config{.rule = rule,
+                         .leaf_photons = given.count("leaf"),
+                         .radius = rule == SplitRule::voxel_volume ? expected_radius(heap, k, radius) : 0},
+        std::move(text));
+}
+
+[[noreturn]] void refuse(const trace::TraceReader& trace, std::string_view column, std::uint64_t row,
+                         const std::string& found, const std::string& expected) {
+    throw trace::DataError(fmt::format("{}: row {}: found {}, expected {}",
+                                       (trace.folder() / fmt::format("{}.npy", column)).string(), row, found,
+                                       expected));
+}
+
+std::shared_ptr<const Structure> open_tree(trace::TraceReader& trace) {
+    const std::uint64_t photons = trace.column<Photon>("photon").size();
+    const std::span<const std::uint32_t> children = trace.column<std::uint32_t>("tree_child"),
+                                         leaf_begin = trace.column<std::uint32_t>("tree_leaf_begin");
+    const std::uint64_t inner = children.size() / 2, leaves = leaf_begin.empty() ? 0 : leaf_begin.size() - 1;
+    if (leaf_begin.empty() || leaf_begin.front() != 0 || leaf_begin.back() != photons)
+        refuse(trace, "tree_leaf_begin", leaf_begin.empty() ? 0 : leaf_begin.size() - 1,
+               leaf_begin.empty() ? "nothing" : fmt::format("{}", leaf_begin.back()),
+               fmt::format("0 to {}, the photons", photons));
+    for (std::uint64_t l = 0; l < leaves; ++l)
+        if (leaf_begin[l + 1] <= leaf_begin[l])
+            refuse(trace, "tree_leaf_begin", l + 1, fmt::format("{}", leaf_begin[l + 1]),
+                   fmt::format("more than {}", leaf_begin[l]));
+    if (children.size() % 2 != 0 || inner != (leaves == 0 ? 0 : leaves - 1))
+        throw trace::DataError(fmt::format("{}: found {} rows, expected {}, two for each leaf but one",
+                                           (trace.folder() / "tree_child.npy").string(), children.size(),
+                                           leaves == 0 ? 0 : 2 * (leaves - 1)));
+    // Each element but the root is the child of one that comes before it, or a leaf; so there is no cycle.
+    std::vector<bool> met(inner + leaves);
+    for (std::uint64_t c = 0; c < children.size(); ++c) {
+        const std::uint64_t child = children[c];
+        if (child >= inner + leaves || child <= c / 2 || met[child])
+            refuse(trace, "tree_child", c, fmt::format("{}", child),
+                   fmt::format("an element above {} and below {} that is no other's child", c / 2,
+                               inner + leaves));
+        met[child] = true;
+    }
+    return std::make_shared<PhotonTree>(trace.info().structure, std::vector(children.begin(), children.end()),
+                                        std::vector(leaf_begin.begin(), leaf_begin.end()));
+}
+
+constexpr StructureEntry table[] = {
+    {LeftBalanced::structure_name,
+     "left-balanced kd-tree in an array, a photon a node (Jensen 2001); what a capture searches",
+     1,
+     {},
+     build_heap<LeftBalanced>,
+     open_heap<LeftBalanced>},
+    {StackFree::structure_name,
+     "the same tree searched without a stack: parents are read again on the way back (Wald 2022)",
+     1,
+     {},
+     build_heap<StackFree>,
+     open_heap<StackFree>},
+    {"median-kd",
+     "kd-tree with buckets: full leaves, split at the median of the longest side (Friedman et al. 1977)", 1,
+     bucket_parameters, build_buckets<SplitRule::median>, open_tree},
+    {"midpoint-kd",
+     "kd-tree with buckets: the middle of the cell's longest side, sliding (Maneewongvatana & Mount 1999)", 1,
+     bucket_parameters, build_buckets<SplitRule::midpoint>, open_tree},
+    {"voxel-volume-kd",
+     "kd-tree with buckets: least volume of cells grown by the search's radius (Wald et al. 2004)", 1,
+     bucket_parameters, build_buckets<SplitRule::voxel_volume>, open_tree},
+};
+
+}  // namespace
+
+std::span<const StructureEntry> structures() {
+    return table;
+}
+
+StructureSpec parse_structure(std::string_view spec) {
+    const std::size_t colon = std::min(spec.find(':'), spec.size());
+    const std::string_view name = spec.substr(0, colon);
+    std::vector<std::string_view> names;
+    for (const StructureEntry& entry : table) names.push_back(entry.name);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+        throw trace::UsageError(fmt::format("structure: unknown {}; nearest: {}; known: {}",
+                                            trace::in_quotes(name), trace::nearest_words(name, names).front(),
+                                            trace::listed(names)));
+    const StructureEntry& entry = table[found - names.begin()];
+    trace::Parameters parameters(entry.name, entry.parameters, spec.substr(std::min(colon + 1, spec.size())));
+    if (!entry.parameters.empty()) trace::require_range(entry.name, "leaf", parameters.count("leaf"), 1, 64);
+    const std::string all = parameters.text();
+    return {&entry, std::move(parameters),
+            all.empty() ? std::string(entry.name) : fmt::format("{}:{}", entry.name, all)};
+}
+
+std::unique_ptr<PhotonSearch> build(const StructureSpec& spec, std::span<const Photon> heap, std::uint32_t k,
+                                    float radius) {
+    return spec.entry->build(heap, spec.parameters, spec.text, k, radius);
+}
+
+std::shared_ptr<const Structure> open_structure(trace::TraceReader& trace) {
+    const std::string file = (trace.folder() / "trace.json").string();
+    const StructureEntry* entry = nullptr;
+    try {
+        entry = parse_structure(trace.info().structure).entry;
+    } catch (const trace::UsageError& error) {
+        throw trace::DataError(fmt::format("{}: {}", file, error.what()));
+    }
+    if (trace.info().structure_version != entry->version)
+        throw trace::DataError(
+            fmt::format("{}: structure_version: found {}, expected {}: walk the trace again (regather walk)",
+                        file, trace.info().structure_version, entry->version));
+    if (const std::uint64_t photons = trace.column<Photon>("photon").size();
+        photons >= std::uint64_t{1} << 31)
+        throw trace::DataError(fmt::format("{}: found {} rows, expected fewer than 2^31",
+                                           (trace.folder() / "photon.npy").string(), photons));
+    return entry->open(trace);
+}
+
+}  // namespace regather::spatial

@@ -1,0 +1,68 @@
+// spatial/structure.h -- what was walked, as a replay knows it: its elements, and how its walks give them
+// back. A structure's file says how it is built and searched; where an element lies in memory is a layout's
+// affair (replay/layout.h).
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trace/region.h"
+
+namespace regather::spatial {
+
+/// Consecutive elements of one kind.
+struct ElementRange {
+    trace::Region region = trace::Region::photons;
+    std::uint32_t first = 0, count = 0;
+    friend bool operator==(const ElementRange&, const ElementRange&) = default;
+};
+
+/// Why a walk cannot be decoded.
+enum class WalkFault : std::uint8_t { none, ends_early, bytes_left_over, enters_missing_child };
+
+/// Gives walks back as elements. One thread at a time.
+class WalkDecoder {
+public:
+    virtual ~WalkDecoder() = default;
+    struct Visits {
+        WalkFault fault = WalkFault::none;
+        std::span<const std::uint32_t> elements;  ///< In the order of the visits; up to the fault.
+    };
+    /// The result lives until the next call.
+    virtual Visits decode(std::span<const std::uint8_t> walk) = 0;
+};
+
+/// Its elements have numbers below end(), in the order of ranges(); numbers between ranges stand for nothing.
+class Structure {
+public:
+    virtual ~Structure() = default;
+    virtual std::string_view name() const = 0;
+    /// Ascending, without overlaps; none is empty.
+    std::span<const ElementRange> ranges() const { return ranges_; }
+    /// One more than the greatest element.
+    std::uint32_t end() const { return ranges_.empty() ? 0 : ranges_.back().first + ranges_.back().count; }
+    /// Steps from the root, or from where a search begins; 0 there.
+    virtual std::uint32_t level(std::uint32_t element) const = 0;
+    virtual std::unique_ptr<WalkDecoder> decoder() const = 0;
+    /// Whether every walk means the same in both.
+    virtual bool same_as(const Structure& other) const {
+        return name() == other.name() && ranges_ == other.ranges_;
+    }
+    /// Appends the elements that hang below this one, in the order of their numbers; a leaf has none.
+    virtual void append_children(std::uint32_t element, std::vector<std::uint32_t>& to) const = 0;
+    /// The elements that hang below no other.
+    virtual std::vector<std::uint32_t> roots() const = 0;
+    /// How many records an element holds: the photons of a leaf, else 1.
+    virtual std::uint32_t records(std::uint32_t) const { return 1; }
+
+protected:
+    explicit Structure(std::vector<ElementRange> ranges) : ranges_(std::move(ranges)) {}
+
+private:
+    std::vector<ElementRange> ranges_;
+};
+
+}  // namespace regather::spatial

@@ -1,0 +1,136 @@
+// The layouts by name: each a bijection without overlaps, the orders as drawn by hand.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+
+#include "replay/layouts/catalogue.h"
+#include "replay/layouts/placement.h"
+#include "spatial/photons/left_balanced.h"
+#include "trace/error.h"
+
+namespace regather::replay {
+namespace {
+
+using spatial::LeftBalanced;
+using testing::ElementsAre, testing::HasSubstr;
+
+std::vector<std::string> all_specs() {
+    std::vector<std::string> specs;
+    for (const LayoutOrder& order : layout_orders())
+        for (const PhotonRecord& record : photon_records())
+            specs.push_back(std::string(order.name) + "-" + std::string(record.name));
+    return specs;
+}
+
+TEST(Layouts, EachIsABijectionWithoutOverlaps) {
+    const std::vector<std::string> specs = all_specs();
+    ASSERT_TRUE(rc::check([&] {
+        const auto photons = *rc::gen::inRange<std::uint32_t>(0, 300);
+        const LeftBalanced tree(photons);
+        const std::string spec = *rc::gen::elementOf(specs);
+        const Layout layout = make_layout(spec, tree);
+        std::vector<Extent> extents;
+        for (std::uint32_t e = 1; e <= photons; ++e) extents.push_back(layout.extent(e));
+        std::sort(extents.begin(), extents.end(),
+                  [](const Extent& a, const Extent& b) { return a.address < b.address; });
+        for (std::size_t i = 0; i < extents.size(); ++i) {
+            RC_ASSERT(extents[i].bytes > 0u);
+            if (i > 0) RC_ASSERT(extents[i - 1].address + extents[i - 1].bytes <= extents[i].address);
+        }
+        if (extents.empty()) return;
+        RC_ASSERT(layout.first_byte() == extents.front().address);
+        RC_ASSERT(layout.end_byte() == extents.back().address + extents.back().bytes);
+    }));
+}
+
+TEST(Layouts, OrdersAreThoseDrawnByHand) {
+    // Ten nodes in four levels: 1 | 2 3 | 4 5 6 7 | 8 9 10.
+    const LeftBalanced tree(10);
+    EXPECT_THAT(heap_order(tree).elements, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10));
+    EXPECT_THAT(breadth_first_order(tree).elements, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10));
+    EXPECT_THAT(depth_first_order(tree).elements, ElementsAre(1, 2, 4, 8, 9, 5, 10, 3, 6, 7));
+    // Two upper levels, then the subtrees of two levels below 4, 5, 6 and 7.
+    EXPECT_THAT(van_emde_boas_order(tree).elements, ElementsAre(1, 2, 3, 4, 8, 9, 5, 10, 6, 7));
+    // Five levels are two and three: the lower three are one and two.
+    EXPECT_THAT(van_emde_boas_order(LeftBalanced(17)).elements,
+                ElementsAre(1, 2, 3, 4, 8, 16, 17, 9, 5, 10, 11, 6, 12, 13, 7, 14, 15));
+}
+
+TEST(Layouts, ClustersFillALine) {
+    // Three photons of 20 bytes on a line of 64: 1 2 3, and then 4 with 8 and 9, 5 with 10; 6 and 7 alone.
+    const LeftBalanced tree(10);
+    const auto twenty = [](std::uint32_t) { return 20u; };
+    const Placement placement = clustered_order(tree, 64, twenty);
+    EXPECT_THAT(placement.elements, ElementsAre(1, 2, 3, 4, 8, 9, 5, 10, 6, 7));
+    EXPECT_THAT(placement.group_begins, ElementsAre(0, 3, 6, 8, 9));
+    // 5 and 10 begin the third line, 6 stands behind them on it, 7 would lie on two.
+    const Layout layout = make_layout("clusters-20:line=64", tree);
+    std::vector<std::uint64_t> addresses;
+    for (const std::uint32_t e : placement.elements) addresses.push_back(layout.extent(e).address);
+    EXPECT_THAT(addresses, ElementsAre(0, 20, 40, 64, 84, 104, 128, 148, 168, 192));
+    EXPECT_EQ(layout.name(), "clusters-20:line=64");
+}
+
+TEST(Layouts, NoGroupThatFitsLiesOnTwoLines) {
+    for (const std::uint32_t line : {32u, 64u, 128u, 256u})
+        for (const std::uint32_t photons : {1u, 6u, 100u, 1023u, 1500u}) {
+            const LeftBalanced tree(photons);
+            const Placement placement = clustered_order(tree, line, [](std::uint32_t) { return 20u; });
+            const Layout layout = make_layout("clusters-20:line=" + std::to_string(line), tree);
+            for (std::size_t g = 0; g < placement.group_begins.size(); ++g) {
+                const std::size_t end = g + 1 < placement.group_begins.size() ? placement.group_begins[g + 1]
+                                                                              : placement.elements.size();
+                const Extent first = layout.extent(placement.elements[placement.group_begins[g]]),
+                             last = layout.extent(placement.elements[end - 1]);
+                EXPECT_EQ(first.address / line, (last.address + last.bytes - 1) / line)
+                    << line << ' ' << photons;
+            }
+        }
+}
+
+TEST(Layouts, RecordsAreAsFarApartAsTheySay) {
+    const LeftBalanced tree(3);
+    EXPECT_EQ(make_layout("heap-20", tree).extent(3), (Extent{40, 20}));
+    EXPECT_EQ(make_layout("heap-32", tree).extent(3), (Extent{64, 20}));
+    EXPECT_EQ(make_layout("heap-16", tree).extent(3), (Extent{32, 16}));
+    EXPECT_EQ(make_layout("depth-first-32", tree).extent(2), (Extent{32, 20}));
+}
+
+TEST(Layouts, TheTopLevelsReadNothing) {
+    const LeftBalanced tree(10);
+    for (const char* order : {"heap", "depth-first", "clusters"}) {
+        const Layout layout = make_layout(std::string(order) + "-20:top=2", tree);
+        for (std::uint32_t e = 1; e <= 10; ++e)
+            EXPECT_EQ(layout.extent(e).bytes, e <= 3 ? 0u : 20u) << order << e;
+        const std::vector<std::uint32_t> walk{1, 3, 6, 2, 4, 9};
+        EXPECT_EQ(layout.bytes(walk), 60u);
+        std::vector<std::uint32_t> read;
+        layout.for_each(walk, [&](std::uint32_t e, std::uint64_t, std::uint32_t) { read.push_back(e); });
+        EXPECT_THAT(read, ElementsAre(6, 4, 9));
+    }
+    EXPECT_EQ(make_layout("clusters-20:top=3", tree).name(), "clusters-20:line=128,top=3");
+}
+
+TEST(Layouts, WhatIsNotInTheTablesIsRefused) {
+    const LeftBalanced tree(3);
+    const auto refused = [&](const char* spec, const char* part) {
+        try {
+            make_layout(spec, tree);
+            ADD_FAILURE() << spec << " was taken";
+        } catch (const trace::UsageError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(part)) << spec;
+        }
+    };
+    refused("heap", "ORDER-RECORD");
+    refused("heaps-20", "nearest: heap");
+    refused("heap-24", "unknown record \"24\"");
+    refused("heap-20:lines=3", "nearest: line");
+    refused("clusters-20:line=96", "power of two");
+    refused("clusters-20:line=8", "line");
+    refused("heap-20:top=41", "top");
+}
+
+}  // namespace
+}  // namespace regather::replay
