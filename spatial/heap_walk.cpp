@@ -86,6 +86,7 @@ void HeapWalkDecoder::subtree(Cursor& cursor, std::uint64_t slot) {
 }
 
 WalkDecoder::Visits HeapWalkDecoder::decode(std::span<const std::uint8_t> walk) {
+    walk_bytes_ = 0;
     if (walk.empty()) return {WalkFault::none, {}};
     if (nodes_ == 0) return {WalkFault::bytes_left_over, {}};
     if (padded_.size() < walk.size() + walk_padding) padded_.resize(2 * (walk.size() + walk_padding));
@@ -172,8 +173,8 @@ WalkDecoder::Visits HeapWalkDecoder::decode(std::span<const std::uint8_t> walk) 
     }
     WalkFault fault = end.fault;
     if (fault == WalkFault::none && end.position > end.total) fault = WalkFault::ends_early;
-    if (fault == WalkFault::none && std::max<std::uint64_t>(1, (end.position + 7) / 8) < walk.size())
-        fault = WalkFault::bytes_left_over;
+    walk_bytes_ = std::max<std::uint64_t>(1, (end.position + 7) / 8);
+    if (fault == WalkFault::none && walk_bytes_ < walk.size()) fault = WalkFault::bytes_left_over;
     return {fault, {visited_.data(), end.count}};
 }
 

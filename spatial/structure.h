@@ -33,9 +33,17 @@ public:
     };
     /// The result lives until the next call.
     virtual Visits decode(std::span<const std::uint8_t> walk) = 0;
+    /// How many bytes of the last walk its visits took, where the fault was none or bytes_left_over.
+    std::size_t walk_bytes() const { return walk_bytes_; }
+
+protected:
+    std::size_t walk_bytes_ = 0;
 };
 
 /// Its elements have numbers below end(), in the order of ranges(); numbers between ranges stand for nothing.
+/// Elements of Region::photons hold records of photons, counted in the order of their numbers. Where walks
+/// tell which photons were found, the r-th element of Region::photon_power is what a record holds besides
+/// what a search looks at; it hangs below no element and is no root.
 class Structure {
 public:
     virtual ~Structure() = default;
@@ -57,6 +65,16 @@ public:
     virtual std::vector<std::uint32_t> roots() const = 0;
     /// How many records an element holds: the photons of a leaf, else 1.
     virtual std::uint32_t records(std::uint32_t) const { return 1; }
+    /// The first record of an element of Region::photons.
+    virtual std::uint32_t first_record(std::uint32_t element) const {
+        return element - range_of(trace::Region::photons).first;
+    }
+    /// Without elements where the structure has none of this region.
+    ElementRange range_of(trace::Region region) const {
+        for (const ElementRange& range : ranges_)
+            if (range.region == region) return range;
+        return {region, 0, 0};
+    }
 
 protected:
     explicit Structure(std::vector<ElementRange> ranges) : ranges_(std::move(ranges)) {}

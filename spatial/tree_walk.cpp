@@ -15,6 +15,7 @@ TreeWalkDecoder::TreeWalkDecoder(std::span<const std::uint32_t> children, bool e
       undecided_(64) {}
 
 WalkDecoder::Visits TreeWalkDecoder::decode(std::span<const std::uint8_t> walk) {
+    walk_bytes_ = 0;
     if (walk.empty()) return {WalkFault::none, {}};
     if (empty_) return {WalkFault::bytes_left_over, {}};
     if (padded_.size() < walk.size() + walk_padding) padded_.resize(2 * (walk.size() + walk_padding));
@@ -67,8 +68,8 @@ WalkDecoder::Visits TreeWalkDecoder::decode(std::span<const std::uint8_t> walk) 
         if (!entered) break;
     }
     if (position > total) return {WalkFault::ends_early, {visited_.data(), count}};
-    if (std::max<std::uint64_t>(1, (position + 7) / 8) < walk.size())
-        return {WalkFault::bytes_left_over, {visited_.data(), count}};
+    walk_bytes_ = std::max<std::uint64_t>(1, (position + 7) / 8);
+    if (walk_bytes_ < walk.size()) return {WalkFault::bytes_left_over, {visited_.data(), count}};
     return {WalkFault::none, {visited_.data(), count}};
 }
 

@@ -27,6 +27,15 @@ public:
     }
     void near(bool upper) { push(upper); }
     void far(bool entered) { push(entered); }
+    /// Any bit.
+    void push(bool bit) {
+        word_ = word_ << 1 | static_cast<std::uint64_t>(bit);
+        if (++used_ == 64) {
+            append(word_, 8);
+            word_ = 0;
+            used_ = 0;
+        }
+    }
 
     /// Ends a walk; returns its bytes.
     std::uint32_t finish() {
@@ -48,14 +57,6 @@ public:
     }
 
 private:
-    void push(bool bit) {
-        word_ = word_ << 1 | static_cast<std::uint64_t>(bit);
-        if (++used_ == 64) {
-            append(word_, 8);
-            word_ = 0;
-            used_ = 0;
-        }
-    }
     /// The upper bytes of a word.
     void append(std::uint64_t word, std::size_t count) {
         if (count == 0) return;

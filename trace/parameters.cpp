@@ -64,6 +64,11 @@ const std::string& Parameters::value(std::string_view name) const {
     return values_[static_cast<std::size_t>(found - known_.begin())];
 }
 
+bool Parameters::knows(std::string_view name) const {
+    return std::any_of(known_.begin(), known_.end(),
+                       [name](const Parameter& known) { return known.name == name; });
+}
+
 std::optional<std::uint64_t> Parameters::given(std::string_view name) const {
     const std::string& text = value(name);
     if (text.empty()) return {};

@@ -23,6 +23,7 @@ public:
     /// ones.
     Parameters(std::string_view owner, std::span<const Parameter> known, std::string_view text);
 
+    bool knows(std::string_view name) const;                          ///< Whether there is such a parameter.
     std::optional<std::uint64_t> given(std::string_view name) const;  ///< Nothing when it has no value.
     std::uint64_t number(std::string_view name) const;                ///< It has a value.
     /// As number(), but at most 2^32 - 1.

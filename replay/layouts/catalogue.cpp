@@ -27,10 +27,12 @@ constexpr std::array<LayoutOrder, 5> orders{{
     {"clusters", "groups of an element and what hangs below it that fill a line (line=128)"},
 }};
 
-constexpr std::array<PhotonRecord, 3> records{{
+constexpr std::array<PhotonRecord, 5> records{{
     {"20", "as in Jensen 2001: position, power, direction, flags", 20, 20},
     {"32", "the same, padded to 32 bytes", 32, 20},
     {"16", "compressed to 16 bytes", 16, 16},
+    {"14+6", "position and axis; power and direction apart, read of the photons found", 14, 14, 6},
+    {"12+6", "position; power and direction apart, read of the photons found", 12, 12, 6, false},
 }};
 
 constexpr trace::Parameter parameters[] = {
@@ -65,12 +67,13 @@ struct Sizes {
     }
     std::uint32_t taken(std::uint32_t element) const {
         if (region(element) == trace::Region::nodes) return node_bytes;
+        if (region(element) == trace::Region::photon_power) return record.apart_bytes;
         return record.stride_bytes * structure.records(element);
     }
     /// The padding behind the last photon is not read.
     std::uint32_t used(std::uint32_t element) const {
         const std::uint32_t bytes = taken(element);
-        if (region(element) == trace::Region::nodes || bytes == 0) return bytes;
+        if (region(element) != trace::Region::photons || bytes == 0) return bytes;
         return bytes - (record.stride_bytes - record.used_bytes);
     }
 };
@@ -83,6 +86,18 @@ std::vector<Extent> extents_of(const Placement& placement, const Sizes& sizes, s
     std::uint64_t address = 0;
     for (const spatial::ElementRange& range : structure.ranges()) {
         address = (address + region_alignment - 1) / region_alignment * region_alignment;
+        if (range.region == trace::Region::photon_power) {
+            const spatial::ElementRange photons = structure.range_of(trace::Region::photons);
+            for (const std::uint32_t e : placement.elements) {
+                if (e < photons.first || e >= photons.first + photons.count) continue;
+                const std::uint32_t first = range.first + structure.first_record(e);
+                for (std::uint32_t p = first; p < first + structure.records(e); ++p) {
+                    extents[p] = {address, sizes.used(p)};
+                    address += sizes.taken(p);
+                }
+            }
+            continue;
+        }
         const auto here = [&](std::uint32_t e) { return e >= range.first && e < range.first + range.count; };
         std::size_t group = 0;
         for (std::size_t i = 0; i < placement.elements.size(); ++i) {
@@ -136,9 +151,18 @@ Layout make_layout(std::string_view spec, const spatial::Structure& structure) {
 
     const Sizes sizes{structure, record, node};
     const bool clusters = order.name == "clusters";
-    const std::span<const spatial::ElementRange> ranges = structure.ranges();
-    const bool nodes = std::any_of(ranges.begin(), ranges.end(),
-                                   [](const auto& r) { return r.region == trace::Region::nodes; });
+    const bool nodes = structure.range_of(trace::Region::nodes).count > 0;
+    if (record.apart_bytes > 0 && structure.end() > 0 &&
+        structure.range_of(trace::Region::photon_power).count == 0)
+        throw trace::UsageError(
+            fmt::format("layout: record {}: found walks in {} that do not tell which photons were found, "
+                        "expected found=1 "
+                        "(regather walk)",
+                        record.name, structure.name()));
+    if (!record.tells_axis && !nodes && structure.range_of(trace::Region::photons).count > 1)
+        throw trace::UsageError(fmt::format(
+            "layout: record {}: found {}, whose photons are inner nodes, expected a record with an axis",
+            record.name, structure.name()));
     std::string text(name);
     auto tell = [&, colon = true](std::string_view parameter, std::uint32_t value) mutable {
         text += fmt::format("{}{}={}", std::exchange(colon, false) ? ":" : ",", parameter, value);

@@ -21,14 +21,17 @@ std::span<const LayoutOrder> layout_orders();
 struct PhotonRecord {
     std::string_view name, summary;
     std::uint32_t stride_bytes, used_bytes;  ///< From one photon to the next; what a visit reads.
+    std::uint32_t apart_bytes = 0;           ///< Elsewhere, read of the photons found.
+    bool tells_axis = true;                  ///< By which axis it splits, where photons are inner nodes.
 };
 std::span<const PhotonRecord> photon_records();
 std::span<const trace::Parameter> layout_parameters();
 
 /// The layout that a spec names. The regions of a structure follow one another in the order of its ranges,
-/// each from a multiple of 4096 on, the first from 0. Parameters: `line` [bytes], a power of two, for
-/// clusters (128); `top`, so many levels from the root are kept on chip and read nothing (0). Throws
-/// trace::UsageError for an unknown word (with the nearest and all known ones) or a value out of range.
+/// each from a multiple of 4096 on, the first from 0; what photons have apart lies in the order of the
+/// photons. Parameters: `line` [bytes], a power of two, for clusters (128); `top`, so many levels from the
+/// root are kept on chip and read nothing (0). Throws trace::UsageError for an unknown word (with the nearest
+/// and all known ones), a value out of range, and a record that does not suit the structure.
 Layout make_layout(std::string_view spec, const spatial::Structure& structure);
 
 }  // namespace regather::replay

@@ -5,8 +5,9 @@ namespace regather::replay {
 Placement heap_order(const spatial::Structure& structure) {
     Placement placement;
     for (const spatial::ElementRange& range : structure.ranges())
-        for (std::uint32_t e = range.first; e < range.first + range.count; ++e)
-            placement.elements.push_back(e);
+        if (range.region != trace::Region::photon_power)
+            for (std::uint32_t e = range.first; e < range.first + range.count; ++e)
+                placement.elements.push_back(e);
     return placement;
 }
 

@@ -8,8 +8,8 @@
 
 namespace regather::replay {
 
-/// Every element of a structure once. Those of a group stand together: a group that fits into a line lies on
-/// one.
+/// Every element of a structure once, but for those of Region::photon_power, which follow their photons.
+/// Those of a group stand together: a group that fits into a line lies on one.
 struct Placement {
     std::vector<std::uint32_t> elements;
     std::vector<std::uint32_t> group_begins;  ///< Places in `elements`, ascending; empty: nothing is grouped.

@@ -90,6 +90,7 @@ void nearest(const BucketKd& tree, Vec3 point, NearestSet& found, Listener&& lis
         for (std::uint32_t place = leaf_begin[leaf]; place < leaf_begin[leaf + 1]; ++place) {
             const Vec3 to_point = point - tree.positions()[place];
             found.offer(trace::dot(to_point, to_point), tree.photon_at()[place]);
+            if constexpr (requires { listener.look(place); }) listener.look(tree.photon_at()[place]);
         }
         for (;;) {
             if (depth == 0) return;

@@ -20,6 +20,7 @@ public:
 
     Visits decode(std::span<const std::uint8_t> walk) override {
         const auto [fault, nodes] = with_stack_->decode(walk);
+        walk_bytes_ = with_stack_->walk_bytes();
         visited_.clear();
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             visited_.push_back(nodes[i]);

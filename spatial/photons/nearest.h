@@ -102,7 +102,8 @@ private:
     std::vector<std::uint64_t> keys_;
 };
 
-/// What a search tells: each node it enters, and its two decisions at each node that has a child.
+/// What a search tells: each node it enters, and its two decisions at each node that has a child. A listener
+/// that has look(photon) is told each photon whose distance is taken, too, as NearestSet numbers it.
 struct Unheard {
     void visit(std::uint32_t) {}  ///< A node number, from 0; pre-order.
     void near(bool) {}            ///< After visit: is the upper (second) child the nearer one?
@@ -132,6 +133,7 @@ void nearest(const PhotonKd& tree, Vec3 point, NearestSet& found, Listener&& lis
             listener.visit(slot - 1);
             const Vec3 to_point = point - photon.position;
             found.offer(trace::dot(to_point, to_point), slot - 1);
+            if constexpr (requires { listener.look(slot); }) listener.look(slot - 1);
             const std::uint32_t children = 2 * slot;
             if (children > count) break;
             __builtin_prefetch(heap + children);

@@ -22,6 +22,9 @@ public:
     void append_children(std::uint32_t element, std::vector<std::uint32_t>& to) const override;
     std::vector<std::uint32_t> roots() const override;
     std::uint32_t records(std::uint32_t element) const override;
+    std::uint32_t first_record(std::uint32_t element) const override {
+        return leaf_begin_[element - inner_nodes()];
+    }
     bool same_as(const Structure& other) const override;
 
     std::uint32_t inner_nodes() const { return static_cast<std::uint32_t>(children_.size() / 2); }

@@ -4,14 +4,16 @@
 
 #include <algorithm>
 
+#include "spatial/photons/found_walk.h"
 #include "spatial/photons/nearest.h"
 #include "spatial/walk.h"
 
 namespace regather::spatial {
 namespace {
 
-template <class Tree>
+template <class Recorder, class Tree>
 Recording recorded(const Tree& tree, std::span<const Vec3> points, std::uint32_t k, float radius) {
+    constexpr bool tells_found = std::same_as<Recorder, FoundRecorder>;
     constexpr std::size_t chunk_points = 4096;
     struct Chunk {
         std::vector<std::uint8_t> walks;
@@ -22,11 +24,19 @@ Recording recorded(const Tree& tree, std::span<const Vec3> points, std::uint32_t
     std::vector<Chunk> chunks((points.size() + chunk_points - 1) / chunk_points);
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
         NearestSet found(std::min(k, tree.size()), radius);
-        WalkRecorder recorder;
+        Recorder recorder = [&] {
+            if constexpr (tells_found)
+                return FoundRecorder(tree.size());
+            else
+                return WalkRecorder();
+        }();
         const std::size_t end = std::min(points.size(), (c + 1) * chunk_points);
         for (std::size_t i = c * chunk_points; i < end; ++i) {
             nearest(tree, points[i], found, recorder);
-            all.walk_bytes[i] = recorder.finish();
+            if constexpr (tells_found)
+                all.walk_bytes[i] = recorder.finish(found);
+            else
+                all.walk_bytes[i] = recorder.finish();
             chunks[c].found += found.size();
         }
         chunks[c].walks.assign(recorder.bytes().begin(), recorder.bytes().end());
@@ -35,19 +45,23 @@ Recording recorded(const Tree& tree, std::span<const Vec3> points, std::uint32_t
     for (const Chunk& chunk : chunks) {
         all.walks.insert(all.walks.end(), chunk.walks.begin(), chunk.walks.end());
         all.found_photons += chunk.found;
-        all.visited_nodes += chunk.visited;
+        all.visited_nodes += chunk.visited + (tells_found ? chunk.found : 0);
     }
     return all;
 }
 
 }  // namespace
 
-Recording record_walks(const PhotonKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius) {
-    return recorded(tree, points, k, radius);
+Recording record_walks(const PhotonKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
+                       bool tells_found) {
+    return tells_found ? recorded<FoundRecorder>(tree, points, k, radius)
+                       : recorded<WalkRecorder>(tree, points, k, radius);
 }
 
-Recording record_walks(const BucketKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius) {
-    return recorded(tree, points, k, radius);
+Recording record_walks(const BucketKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
+                       bool tells_found) {
+    return tells_found ? recorded<FoundRecorder>(tree, points, k, radius)
+                       : recorded<WalkRecorder>(tree, points, k, radius);
 }
 
 }  // namespace regather::spatial

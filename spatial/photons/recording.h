@@ -12,13 +12,16 @@ namespace regather::spatial {
 /// Row i belongs to point i.
 struct Recording {
     std::vector<std::uint32_t> walk_bytes;  ///< Length of each walk.
-    std::vector<std::uint8_t> walks;        ///< One after the other (spatial/walk.h).
+    std::vector<std::uint8_t> walks;        ///< One after the other (spatial/walk.h, found_walk.h).
     std::uint64_t found_photons = 0, visited_nodes = 0;
 };
 
 /// The walks of the `k` nearest photons within `radius` [scene units] of each point; a point that is not
-/// finite has an empty walk. The same on any number of threads.
-Recording record_walks(const PhotonKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius);
-Recording record_walks(const BucketKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius);
+/// finite has an empty walk. `tells_found`: walks as found_walk.h has them, and visited_nodes counts an
+/// element for each photon found. The same on any number of threads.
+Recording record_walks(const PhotonKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
+                       bool tells_found = false);
+Recording record_walks(const BucketKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
+                       bool tells_found = false);
 
 }  // namespace regather::spatial

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "spatial/photons/bucket_kd.h"
+#include "spatial/photons/found_walk.h"
 #include "spatial/photons/left_balanced.h"
 #include "spatial/photons/photon_kd.h"
 #include "trace/error.h"
@@ -19,19 +20,28 @@
 namespace regather::spatial {
 namespace {
 
-constexpr trace::Parameter bucket_parameters[] = {{"leaf", "8", "most photons of a leaf, 1 to 64"}};
+constexpr std::string_view found_help = "1: walks tell which photons were found";
+constexpr trace::Parameter heap_parameters[] = {{"found", "0", found_help}};
+constexpr trace::Parameter bucket_parameters[] = {{"leaf", "8", "most photons of a leaf, 1 to 64"},
+                                                  {"found", "0", found_help}};
+
+bool tells_found(const trace::Parameters& given) {
+    return given.knows("found") && given.count("found") == 1;
+}
 
 // --- the left-balanced tree
-// -----------------------------------------------------------------------------------
+// ---------------------------------------------------------------------------------
 
 template <class Tree>
 class HeapSearch final : public PhotonSearch {
 public:
-    explicit HeapSearch(std::span<const Photon> heap)
-        : tree_(heap), structure_(std::make_shared<Tree>(tree_.size())) {}
+    HeapSearch(std::span<const Photon> heap, bool tells_found, std::string text)
+        : tree_(heap), structure_(std::make_shared<Tree>(tree_.size())), tells_found_(tells_found) {
+        if (tells_found) structure_ = std::make_shared<WithFound>(structure_, std::move(text));
+    }
     std::shared_ptr<const Structure> structure() const override { return structure_; }
     Recording record(std::span<const Vec3> points, std::uint32_t k, float radius) const override {
-        Recording recording = record_walks(tree_, points, k, radius);
+        Recording recording = record_walks(tree_, points, k, radius, tells_found_);
         if constexpr (std::same_as<Tree, StackFree>) recording.visited_nodes = visits(recording);
         return recording;
     }
@@ -53,12 +63,13 @@ private:
 
     PhotonKd tree_;
     std::shared_ptr<const Structure> structure_;
+    bool tells_found_;
 };
 
 template <class Tree>
-std::unique_ptr<PhotonSearch> build_heap(std::span<const Photon> heap, const trace::Parameters&, std::string,
-                                         std::uint32_t, float) {
-    return std::make_unique<HeapSearch<Tree>>(heap);
+std::unique_ptr<PhotonSearch> build_heap(std::span<const Photon> heap, const trace::Parameters& given,
+                                         std::string text, std::uint32_t, float) {
+    return std::make_unique<HeapSearch<Tree>>(heap, tells_found(given), std::move(text));
 }
 
 template <class Tree>
@@ -67,15 +78,18 @@ std::shared_ptr<const Structure> open_heap(trace::TraceReader& trace) {
 }
 
 // --- kd-trees with buckets
-// ------------------------------------------------------------------------------------
+// ----------------------------------------------------------------------------------
 
 class BucketSearch final : public PhotonSearch {
 public:
-    BucketSearch(std::span<const Photon> photons, const BucketKd::Config& config, std::string text)
-        : tree_(photons, config, std::move(text)) {}
-    std::shared_ptr<const Structure> structure() const override { return tree_.share_shape(); }
+    BucketSearch(std::span<const Photon> photons, const BucketKd::Config& config, bool tells_found,
+                 const std::string& text)
+        : tree_(photons, config, text), structure_(tree_.share_shape()), tells_found_(tells_found) {
+        if (tells_found) structure_ = std::make_shared<WithFound>(structure_, text);
+    }
+    std::shared_ptr<const Structure> structure() const override { return structure_; }
     Recording record(std::span<const Vec3> points, std::uint32_t k, float radius) const override {
-        return record_walks(tree_, points, k, radius);
+        return record_walks(tree_, points, k, radius, tells_found_);
     }
     std::span<const std::uint32_t> photon_at() const override { return tree_.photon_at(); }
     void store(trace::TraceWriter& writer) const override {
@@ -86,6 +100,8 @@ public:
 
 private:
     BucketKd tree_;
+    std::shared_ptr<const Structure> structure_;
+    bool tells_found_;
 };
 
 /// What cells are grown by: the radius of the searches, or, without one, the median distance of the k-th
@@ -114,7 +130,7 @@ std::unique_ptr<PhotonSearch> build_buckets(std::span<const Photon> heap, const 
         BucketKd::Config{.rule = rule,
                          .leaf_photons = given.count("leaf"),
                          .radius = rule == SplitRule::voxel_volume ? expected_radius(heap, k, radius) : 0},
-        std::move(text));
+        tells_found(given), text);
 }
 
 [[noreturn]] void refuse(const trace::TraceReader& trace, std::string_view column, std::uint64_t row,
@@ -157,11 +173,8 @@ std::shared_ptr<const Structure> open_tree(trace::TraceReader& trace) {
 
 constexpr StructureEntry table[] = {
     {LeftBalanced::structure_name,
-     "left-balanced kd-tree in an array, a photon a node (Jensen 2001); what a capture searches",
-     1,
-     {},
-     build_heap<LeftBalanced>,
-     open_heap<LeftBalanced>},
+     "left-balanced kd-tree in an array, a photon a node (Jensen 2001); what a capture searches", 1,
+     heap_parameters, build_heap<LeftBalanced>, open_heap<LeftBalanced>},
     {StackFree::structure_name,
      "the same tree searched without a stack: parents are read again on the way back (Wald 2022)",
      1,
@@ -197,10 +210,15 @@ StructureSpec parse_structure(std::string_view spec) {
                                             trace::listed(names)));
     const StructureEntry& entry = table[found - names.begin()];
     trace::Parameters parameters(entry.name, entry.parameters, spec.substr(std::min(colon + 1, spec.size())));
-    if (!entry.parameters.empty()) trace::require_range(entry.name, "leaf", parameters.count("leaf"), 1, 64);
-    const std::string all = parameters.text();
-    return {&entry, std::move(parameters),
-            all.empty() ? std::string(entry.name) : fmt::format("{}:{}", entry.name, all)};
+    std::string text(entry.name);
+    for (const trace::Parameter& parameter : entry.parameters) {
+        const std::uint32_t value = parameters.count(parameter.name);
+        const bool is_found = parameter.name == "found";
+        trace::require_range(entry.name, parameter.name, value, is_found ? 0 : 1, is_found ? 1 : 64);
+        if (is_found && value == 0) continue;  // as if there were no such parameter
+        text += fmt::format("{}{}={}", text.size() == entry.name.size() ? ":" : ",", parameter.name, value);
+    }
+    return {&entry, std::move(parameters), std::move(text)};
 }
 
 std::unique_ptr<PhotonSearch> build(const StructureSpec& spec, std::span<const Photon> heap, std::uint32_t k,
@@ -211,8 +229,11 @@ std::unique_ptr<PhotonSearch> build(const StructureSpec& spec, std::span<const P
 std::shared_ptr<const Structure> open_structure(trace::TraceReader& trace) {
     const std::string file = (trace.folder() / "trace.json").string();
     const StructureEntry* entry = nullptr;
+    bool found = false;
     try {
-        entry = parse_structure(trace.info().structure).entry;
+        const StructureSpec spec = parse_structure(trace.info().structure);
+        entry = spec.entry;
+        found = tells_found(spec.parameters);
     } catch (const trace::UsageError& error) {
         throw trace::DataError(fmt::format("{}: {}", file, error.what()));
     }
@@ -224,7 +245,9 @@ std::shared_ptr<const Structure> open_structure(trace::TraceReader& trace) {
         photons >= std::uint64_t{1} << 31)
         throw trace::DataError(fmt::format("{}: found {} rows, expected fewer than 2^31",
                                            (trace.folder() / "photon.npy").string(), photons));
-    return entry->open(trace);
+    std::shared_ptr<const Structure> structure = entry->open(trace);
+    if (found) structure = std::make_shared<WithFound>(std::move(structure), trace.info().structure);
+    return structure;
 }
 
 }  // namespace regather::spatial

@@ -167,7 +167,8 @@ TEST(WalkAgain, InEveryStructureTheSamePhotonsAreFound) {
     const std::string from = (captured_box() / "trace").string();
     const trace::TraceReader original(from);
     for (const spatial::StructureEntry& entry : spatial::structures()) {
-        const std::string name(entry.name), spec = entry.parameters.empty() ? name : name + ":leaf=5",
+        const bool buckets = !entry.parameters.empty() && entry.parameters[0].name == "leaf";
+        const std::string name(entry.name), spec = buckets ? name + ":leaf=5" : name,
                                             to = (scratch / name).string();
         expect_done({"walk", from, "--structure", spec, "-o", to});
         expect_done({"info", to, "--verify"});
@@ -177,8 +178,8 @@ TEST(WalkAgain, InEveryStructureTheSamePhotonsAreFound) {
         EXPECT_EQ(found.info().scene, "box");
         for (const char* column : {"photon", "query_position", "query_pixel", "ray_gather_origin"})
             EXPECT_EQ(found.digests().at(column), original.digests().at(column)) << column;
-        EXPECT_EQ(found.digests().at("walk") == original.digests().at("walk"), entry.parameters.empty());
-        if (entry.parameters.empty())
+        EXPECT_EQ(found.digests().at("walk") == original.digests().at("walk"), !buckets);
+        if (!buckets)
             EXPECT_EQ(found.info().visited_nodes > original.info().visited_nodes, name != "left-balanced-kd");
         const std::vector<results::Row> rows =
             results::from_csv(expect_done({"replay", to, "--order", "random", "naive", "--layout", "heap-20",
@@ -191,8 +192,33 @@ TEST(WalkAgain, InEveryStructureTheSamePhotonsAreFound) {
             EXPECT_GE(row.traffic_bytes, row.compulsory_bytes);
             if (*row.cache_bytes > 4096) EXPECT_EQ(row.traffic_bytes, row.compulsory_bytes);
         }
-        EXPECT_EQ(rows[0].layout, entry.parameters.empty() ? "heap-20" : "heap-20:node=8");
+        EXPECT_EQ(rows[0].layout, buckets ? "heap-20:node=8" : "heap-20");
     }
+}
+
+TEST(WalkAgain, WalksThatTellWhatWasFoundReadPowerOfThatAlone) {
+    const Scratch scratch;
+    const std::string from = (captured_box() / "trace").string();
+    for (const char* spec : {"left-balanced-kd:found=1", "median-kd:leaf=6,found=1"}) {
+        const std::string to = (scratch / spec).string();
+        expect_done({"walk", from, "--structure", spec, "-o", to});
+        expect_done({"info", to, "--verify"});
+        const trace::TraceReader walked(to);
+        EXPECT_EQ(walked.info().structure, spec);
+        const std::vector<results::Row> rows =
+            results::from_csv(expect_done({"replay", to, "--order", "naive", "--layout", "depth-first-20",
+                                           "depth-first-16", "depth-first-14+6", "--cache", "4K:128:8"})
+                                  .out,
+                              "stdout");
+        ASSERT_EQ(rows.size(), 3u);
+        // 6 of 20 bytes are read of the found photons alone, not of all that were looked at.
+        const std::uint64_t looked = (*rows[0].raw_bytes - *rows[1].raw_bytes) / 4;
+        EXPECT_GT(looked, walked.info().found_photons);
+        EXPECT_EQ(*rows[2].raw_bytes, *rows[0].raw_bytes - 6 * (looked - walked.info().found_photons))
+            << spec;
+    }
+    expect_refused(bad_usage, {"replay", from, "--order", "naive", "--layout", "heap-14+6"},
+                   {"expected found=1"});
 }
 
 TEST(WalkAgain, WhatDoesNotFitIsRefused) {
@@ -202,7 +228,7 @@ TEST(WalkAgain, WhatDoesNotFitIsRefused) {
                    {"unknown \"median\"", "nearest: median-kd"});
     expect_refused(bad_usage, {"walk", from, "--structure", "median-kd:leaf=65", "-o", to},
                    {"leaf is 65, expected 1 to 64"});
-    expect_refused(bad_usage, {"walk", from, "--structure", "left-balanced-kd:leaf=4", "-o", to},
+    expect_refused(bad_usage, {"walk", from, "--structure", "left-balanced-stack-free:leaf=4", "-o", to},
                    {"takes none"});
     expect_refused(bad_usage, {"walk", from, "--structure", "median-kd", "--k", "4", "-o", to},
                    {"expected no --k"});

@@ -7,7 +7,10 @@
 
 #include "replay/layouts/catalogue.h"
 #include "replay/layouts/placement.h"
+#include "spatial/photons/bucket_kd.h"
+#include "spatial/photons/found_walk.h"
 #include "spatial/photons/left_balanced.h"
+#include "tests/spatial/photons.h"
 #include "trace/error.h"
 
 namespace regather::replay {
@@ -28,11 +31,19 @@ TEST(Layouts, EachIsABijectionWithoutOverlaps) {
     const std::vector<std::string> specs = all_specs();
     ASSERT_TRUE(rc::check([&] {
         const auto photons = *rc::gen::inRange<std::uint32_t>(0, 300);
-        const LeftBalanced tree(photons);
         const std::string spec = *rc::gen::elementOf(specs);
-        const Layout layout = make_layout(spec, tree);
+        std::shared_ptr<const spatial::Structure> tree = std::make_shared<LeftBalanced>(photons);
+        if (spec.ends_with("-12+6") || *rc::gen::arbitrary<bool>())
+            tree = spatial::BucketKd(spatial::uniform_photons(photons),
+                                     {.leaf_photons = *rc::gen::inRange<std::uint32_t>(1, 9)})
+                       .share_shape();
+        const bool apart = spec.find('+') != spec.npos;
+        if (apart) tree = std::make_shared<spatial::WithFound>(tree, "with");
+        const Layout layout = make_layout(spec, *tree);
         std::vector<Extent> extents;
-        for (std::uint32_t e = 1; e <= photons; ++e) extents.push_back(layout.extent(e));
+        for (const spatial::ElementRange& range : tree->ranges())
+            for (std::uint32_t e = range.first; e < range.first + range.count; ++e)
+                extents.push_back(layout.extent(e));
         std::sort(extents.begin(), extents.end(),
                   [](const Extent& a, const Extent& b) { return a.address < b.address; });
         for (std::size_t i = 0; i < extents.size(); ++i) {
@@ -98,6 +109,26 @@ TEST(Layouts, RecordsAreAsFarApartAsTheySay) {
     EXPECT_EQ(make_layout("depth-first-32", tree).extent(2), (Extent{32, 20}));
 }
 
+TEST(Layouts, WhatIsApartFollowsItsPhotons) {
+    // Leaves of 0 1 | 2 3 | 4 5 | 6 below nodes 0, 1, 2; leaves are elements 3 to 6, power 7 to 13.
+    const spatial::BucketKd buckets(spatial::photons_on_a_line({0, 1, 2, 3, 4, 5, 6}), {.leaf_photons = 2});
+    const spatial::WithFound tree(buckets.share_shape(), "with");
+    const Layout layout = make_layout("depth-first-12+6:node=6", tree);
+    EXPECT_EQ(layout.name(), "depth-first-12+6:node=6");
+    EXPECT_EQ(layout.extent(2), (Extent{12, 6}));
+    EXPECT_EQ(layout.extent(4), (Extent{4096 + 24, 24}));
+    EXPECT_EQ(layout.extent(6), (Extent{4096 + 72, 12}));
+    EXPECT_EQ(layout.extent(7), (Extent{8192, 6}));
+    EXPECT_EQ(layout.extent(13), (Extent{8192 + 36, 6}));
+    EXPECT_EQ(layout.region(13), trace::Region::photon_power);
+    EXPECT_EQ(make_layout("depth-first-20", tree).extent(13).bytes, 0u) << "read with the photon";
+    EXPECT_EQ(make_layout("depth-first-12+6:top=3", tree).bytes(std::vector<std::uint32_t>{0, 3, 7}), 6u);
+    // In the heap of five, 2 and its power stand before 3 in depth-first order behind 4 and 5.
+    const spatial::WithFound heap(std::make_shared<LeftBalanced>(5), "with");
+    EXPECT_EQ(make_layout("depth-first-14+6", heap).extent(6 + 2 - 1), (Extent{4096 + 6, 6}));
+    EXPECT_EQ(make_layout("depth-first-14+6", heap).extent(6 + 3 - 1), (Extent{4096 + 24, 6}));
+}
+
 TEST(Layouts, TheTopLevelsReadNothing) {
     const LeftBalanced tree(10);
     for (const char* order : {"heap", "depth-first", "clusters"}) {
@@ -130,6 +161,13 @@ TEST(Layouts, WhatIsNotInTheTablesIsRefused) {
     refused("clusters-20:line=96", "power of two");
     refused("clusters-20:line=8", "line");
     refused("heap-20:top=41", "top");
+    refused("heap-14+6", "expected found=1");
+    try {
+        make_layout("heap-12+6", spatial::WithFound(std::make_shared<LeftBalanced>(3), "heap"));
+        ADD_FAILURE() << "taken";
+    } catch (const trace::UsageError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("whose photons are inner nodes"));
+    }
 }
 
 }  // namespace
