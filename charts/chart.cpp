@@ -32,6 +32,8 @@ constexpr ChartKind kinds_table[] = {
      "at least 2 budgets, and buffer_traffic_bytes or reorder_bytes", any<results::Row>, net_benefit},
     {"traffic-by-frame", "Memory traffic along the camera path", "at least 2 frames", any<results::Row>,
      traffic_by_frame},
+    {"traffic-by-layout", "Memory traffic by structure and layout", "at least 2 structures or layouts",
+     any<results::Row>, traffic_by_layout},
     {"traffic-by-depth", "Memory traffic by depth in the tree", "rows by region and tree depth",
      any<results::DetailRow>, traffic_by_depth},
     {"timeline", "Misses over the run", "rows by slice of the run", any<results::TimelineRow>, timeline},

@@ -11,10 +11,11 @@ Chart traffic_by_cache(const ChartKind& kind, const results::Rows& rows, const C
 Chart cost_by_tile(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart cost_by_bins(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 // Other measurements: a bar an ordering by Hill's classes; the least net traffic for a budget; along a camera
-// path.
+// path; a line a structure and layout.
 Chart misses_by_class(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart net_benefit(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart traffic_by_frame(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
+Chart traffic_by_layout(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 // Rows by region and depth, by slice of the run, of sampled runs.
 Chart traffic_by_depth(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart timeline(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);

@@ -15,6 +15,7 @@
 #include "replay/replay.h"
 #include "replay/set_sample.h"
 #include "results/row.h"
+#include "spatial/photons/structures.h"
 #include "trace/folder.h"
 
 namespace regather::experiment {
@@ -44,6 +45,8 @@ public:
     const replay::Layout& layout() const { return layout_; }
     /// Another layout; what was prepared and found for the one before is forgotten. heap-20 at first.
     void lay_out(replay::Layout layout);
+    /// Of the photons, as the structure counts its records.
+    std::vector<trace::Vec3> record_positions() const { return spatial::record_positions(trace_); }
     reorder::Ordered order(const reorder::Ordering& ordering) const;
     /// What the ordering's buffers do in memory; `ordered` is its order().
     reorder::BufferUse buffer_use(const reorder::Ordering& ordering, const reorder::Ordered& ordered) const {

@@ -20,8 +20,9 @@ std::vector<results::Row> through_caches(Measurement& measurement, std::span<con
     for (const cachesim::CacheConfig& cache : caches) lines.insert(cache.line_bytes);
     std::vector<replay::Layout> laid_out;
     std::set<std::string, std::less<>> names;
+    const std::vector<trace::Vec3> positions = measurement.record_positions();
     for (const std::string& spec : layouts) {
-        laid_out.push_back(replay::make_layout(spec, measurement.walks().structure()));
+        laid_out.push_back(replay::make_layout(spec, measurement.walks().structure(), positions));
         if (!names.emplace(laid_out.back().name()).second)
             throw trace::UsageError(fmt::format("layout {}: found {} twice, expected each layout once",
                                                 trace::shown(spec), laid_out.back().name()));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "charts/caption.h"
 #include "charts/subject.h"
@@ -12,6 +13,20 @@ namespace {
 
 double number(const results::Count& count) {
     return static_cast<double>(*count);
+}
+
+/// Of all regions.
+struct Level {
+    double traffic = 0, used = 0;
+};
+std::map<double, Level> levels_of(const std::vector<const results::DetailRow*>& rows) {
+    std::map<double, Level> levels;
+    for (const results::DetailRow* row : rows) {
+        Level& level = levels[number(row->tree_depth)];
+        level.traffic += number(row->traffic_bytes);
+        level.used += static_cast<double>(row->used_bytes.value_or(0));
+    }
+    return levels;
 }
 
 Scale depth_scale(double deepest) {
@@ -37,12 +52,11 @@ Chart traffic_by_depth(const ChartKind& kind, const results::Rows& rows, const C
     std::vector<double> traffics, overfetches;
     double deepest = 0;
     for (const auto& subject : shown.all)
-        for (const results::DetailRow* row : subject.rows) {
-            deepest = std::max(deepest, number(row->tree_depth));
-            if (*row->traffic_bytes == 0) continue;
-            traffics.push_back(number(row->traffic_bytes));
-            if (row->used_bytes.value_or(0) > 0)
-                overfetches.push_back(number(row->traffic_bytes) / number(row->used_bytes));
+        for (const auto& [depth, level] : levels_of(subject.rows)) {
+            deepest = std::max(deepest, depth);
+            if (level.traffic == 0) continue;
+            traffics.push_back(level.traffic);
+            if (level.used > 0) overfetches.push_back(level.traffic / level.used);
         }
     if (traffics.empty()) return skip("no traffic above 0");
 
@@ -54,12 +68,10 @@ Chart traffic_by_depth(const ChartKind& kind, const results::Rows& rows, const C
     overfetch.height = 130;
     for (const auto& subject : shown.all) {
         Line above = line_of(subject.curve), below = above;
-        for (const results::DetailRow* row : subject.rows) {
-            if (*row->traffic_bytes == 0) continue;
-            above.points.push_back({number(row->tree_depth), number(row->traffic_bytes)});
-            if (row->used_bytes.value_or(0) > 0)
-                below.points.push_back(
-                    {number(row->tree_depth), number(row->traffic_bytes) / number(row->used_bytes)});
+        for (const auto& [depth, level] : levels_of(subject.rows)) {
+            if (level.traffic == 0) continue;
+            above.points.push_back({depth, level.traffic});
+            if (level.used > 0) below.points.push_back({depth, level.traffic / level.used});
         }
         traffic.lines.push_back(std::move(above));
         overfetch.lines.push_back(std::move(below));

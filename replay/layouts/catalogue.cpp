@@ -19,11 +19,13 @@ namespace {
 
 constexpr std::uint64_t region_alignment = 4096;
 
-constexpr std::array<LayoutOrder, 5> orders{{
+constexpr std::array<LayoutOrder, 7> orders{{
     {"heap", "by number: a left-balanced tree level by level, children of i at 2i and 2i + 1"},
     {"depth-first", "each element before those below it, subtree by subtree"},
     {"breadth-first", "level by level"},
     {"van-emde-boas", "the upper half of the levels, then each subtree below, again so"},
+    {"hilbert", "photons, or their leaves, along a Hilbert curve; inner nodes depth-first"},
+    {"morton", "the same along the Morton curve"},
     {"clusters", "groups of an element and what hangs below it that fill a line (line=128)"},
 }};
 
@@ -132,7 +134,8 @@ std::span<const trace::Parameter> layout_parameters() {
     return parameters;
 }
 
-Layout make_layout(std::string_view spec, const spatial::Structure& structure) {
+Layout make_layout(std::string_view spec, const spatial::Structure& structure,
+                   std::span<const trace::Vec3> positions) {
     const std::size_t colon = std::min(spec.find(':'), spec.size());
     const std::string_view name = spec.substr(0, colon);
     const std::size_t dash = name.rfind('-');
@@ -172,10 +175,16 @@ Layout make_layout(std::string_view spec, const spatial::Structure& structure) {
     if (top > 0) tell("top", top);
     if (order.name == "heap" && top == 0 && dynamic_cast<const spatial::LeftBalanced*>(&structure))
         return {std::move(text), structure, 0, record.stride_bytes, record.used_bytes};
+    const bool along_hilbert = order.name == "hilbert", along_morton = order.name == "morton";
+    if ((along_hilbert || along_morton) && positions.empty() && structure.end() > 0)
+        throw trace::UsageError(fmt::format("layout: order {}: found {} without positions, expected photons",
+                                            order.name, structure.name()));
     const Placement placement =
         order.name == "heap"            ? heap_order(structure)
         : order.name == "depth-first"   ? depth_first_order(structure)
         : order.name == "breadth-first" ? breadth_first_order(structure)
+        : along_hilbert                 ? curve_order(structure, positions, SpaceCurve::hilbert)
+        : along_morton                  ? curve_order(structure, positions, SpaceCurve::morton)
         : clusters ? clustered_order(structure, line, [&](std::uint32_t e) { return sizes.taken(e); })
                    : van_emde_boas_order(structure);
     return {std::move(text), structure, extents_of(placement, sizes, line, top)};

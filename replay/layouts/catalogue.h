@@ -9,6 +9,7 @@
 
 #include "replay/layout.h"
 #include "trace/parameters.h"
+#include "trace/vec.h"
 
 namespace regather::replay {
 
@@ -31,7 +32,9 @@ std::span<const trace::Parameter> layout_parameters();
 /// each from a multiple of 4096 on, the first from 0; what photons have apart lies in the order of the
 /// photons. Parameters: `line` [bytes], a power of two, for clusters (128); `top`, so many levels from the
 /// root are kept on chip and read nothing (0). Throws trace::UsageError for an unknown word (with the nearest
-/// and all known ones), a value out of range, and a record that does not suit the structure.
-Layout make_layout(std::string_view spec, const spatial::Structure& structure);
+/// and all known ones), a value out of range, and a record that does not suit the structure. `positions` of
+/// the records, by number: what orders along a curve want; without, those are refused.
+Layout make_layout(std::string_view spec, const spatial::Structure& structure,
+                   std::span<const trace::Vec3> positions = {});
 
 }  // namespace regather::replay

@@ -2,9 +2,11 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "spatial/structure.h"
+#include "trace/vec.h"
 
 namespace regather::replay {
 
@@ -33,5 +35,13 @@ Placement van_emde_boas_order(const spatial::Structure& structure);
 /// cut trees likewise). bytes(e) is what element e takes in memory.
 Placement clustered_order(const spatial::Structure& structure, std::uint32_t line_bytes,
                           const std::function<std::uint32_t(std::uint32_t)>& bytes);
+
+enum class SpaceCurve : std::uint8_t { morton, hilbert };
+
+/// Elements that hold photons along a curve through 2^21 cells an axis over the photons, by the middle of the
+/// box of each one's photons (equal codes: by number); the other elements before them, depth first.
+/// `positions` by record.
+Placement curve_order(const spatial::Structure& structure, std::span<const trace::Vec3> positions,
+                      SpaceCurve curve);
 
 }  // namespace regather::replay

@@ -250,4 +250,22 @@ std::shared_ptr<const Structure> open_structure(trace::TraceReader& trace) {
     return structure;
 }
 
+std::vector<Vec3> record_positions(trace::TraceReader& trace) {
+    if (!trace.has("photon")) return {};
+    const std::span<const Photon> photons = trace.column<Photon>("photon");
+    std::vector<Vec3> positions(photons.size());
+    if (!trace.has("tree_photon")) {
+        for (std::size_t i = 0; i < photons.size(); ++i) positions[i] = photons[i].position;
+        return positions;
+    }
+    const std::span<const std::uint32_t> photon_at = trace.column<std::uint32_t>("tree_photon");
+    for (std::size_t place = 0; place < photons.size(); ++place) {
+        if (photon_at[place] >= photons.size())
+            refuse(trace, "tree_photon", place, fmt::format("{}", photon_at[place]),
+                   fmt::format("a photon below {}", photons.size()));
+        positions[place] = photons[photon_at[place]].position;
+    }
+    return positions;
+}
+
 }  // namespace regather::spatial

@@ -59,4 +59,8 @@ std::unique_ptr<PhotonSearch> build(const StructureSpec& spec, std::span<const P
 /// or a version that this binary does not know, and for columns that are no tree over the trace's photons.
 std::shared_ptr<const Structure> open_structure(trace::TraceReader& trace);
 
+/// Of the photons, by record of the structure; empty for a trace without photons. Throws trace::DataError for
+/// a record that is no photon.
+std::vector<Vec3> record_positions(trace::TraceReader& trace);
+
 }  // namespace regather::spatial

@@ -142,7 +142,8 @@ TEST(Chart, AnUnknownKindIsRefusedWithTheKnownOnes) {
         EXPECT_STREQ(
             error.what(),
             "chart \"pie\" is not known, expected one of traffic-by-tile, traffic-by-cache, cost-by-tile, "
-            "cost-by-bins, misses-by-class, net-benefit, traffic-by-frame, traffic-by-depth, timeline, "
+            "cost-by-bins, misses-by-class, net-benefit, traffic-by-frame, traffic-by-layout, "
+            "traffic-by-depth, timeline, "
             "sampling-error, "
             "error-by-time, error-by-render-time, efficiency, bias-by-photons, bias-by-k, stability");
     }

@@ -64,6 +64,23 @@ TEST(MissesByClass, ClassesMustSumToTheMissesUnlessSampled) {
     EXPECT_EQ(compose("misses-by-class", only(rows)).skipped, "no row has compulsory, capacity and conflict");
 }
 
+TEST(TrafficByLayout, ALineAStructureAndLayoutWithItsFloor) {
+    std::vector<Row> rows = {made_row("naive", {}, {}, 9000), made_row("hilbert", {}, {}, 700),
+                             made_row("naive", {}, {}, 5000), made_row("hilbert", {}, {}, 90)};
+    for (Row& row : rows) row.compulsory_bytes = 80;
+    for (std::size_t r = 2; r < 4; ++r) rows[r].layout = "depth-first-20";
+    EXPECT_EQ(compose("traffic-by-layout", only({rows[0], rows[1]})).skipped,
+              "needs at least 2 structures or layouts");
+    const Chart chart = compose("traffic-by-layout", only(rows));
+    const std::string text = script(chart, Picture::svg);
+    for (const char* part :
+         {"'left-balanced-kd, heap-20'", "'left-balanced-kd, depth-first-20'", "\n9000 1.3\n", "\n700 1.3\n",
+          "\n5000 0.3\n", "\n90 0.3\n", "\n80 0.1\n80 0.5\n", "'Naive'", "'floor: each line fetched once'"})
+        EXPECT_THAT(text, HasSubstr(part));
+    EXPECT_EQ(chart.caption, "room · 1.00 k queries · 128 KiB cache, 128 B lines, 8-way");
+    EXPECT_THAT(compose("traffic-by-layout", {}).skipped, HasSubstr("no row"));
+}
+
 Row netted(std::string ordering, std::uint64_t cache, std::uint64_t buffered, std::uint64_t traffic,
            std::uint64_t buffers) {
     Row row = made_row(std::move(ordering), {}, {}, traffic);
@@ -229,7 +246,7 @@ TEST(Chart, TheKindsThatAreWantedAreThoseWithRows) {
     EXPECT_THAT(names(wanted_kinds(Rows(details), {})), ElementsAre("traffic-by-depth"));
     EXPECT_THAT(names(wanted_kinds(only(rows), {})),
                 ElementsAre("traffic-by-tile", "traffic-by-cache", "cost-by-tile", "cost-by-bins",
-                            "misses-by-class", "net-benefit", "traffic-by-frame"));
+                            "misses-by-class", "net-benefit", "traffic-by-frame", "traffic-by-layout"));
     const std::string asked[] = {"timeline"};
     EXPECT_THAT(names(wanted_kinds(only(rows), asked)), ElementsAre("timeline"));
     EXPECT_TRUE(wanted_kinds({}, {}).empty());
@@ -238,7 +255,8 @@ TEST(Chart, TheKindsThatAreWantedAreThoseWithRows) {
 TEST(Chart, EveryFurtherKindBecomesAPictureWhateverTheNames) {
     const std::string name = "it's `id` \\ {/x} <b>&\nexit 3";
     std::vector<Row> rows = {classed(name, {}, 1, 2, 3), netted(name, 16384, 0, 9000, 0),
-                             netted(name, 65536, 0, 80, 0)};
+                             netted(name, 65536, 0, 80, 0), netted(name, 16384, 0, 700, 0)};
+    rows.back().layout = name;
     const std::vector<DetailRow> details = {level(name, 0, 128, 128), level(name, 1, 256, 128)};
     const std::vector<TimelineRow> slices = {slice(name, 0, 10, 10), slice(name, 10, 10, 20)};
     const std::vector<SamplingRow> runs = {sampled(name, 2, 990, 2, true), sampled(name, 4, 980, 1, true)};
@@ -246,8 +264,8 @@ TEST(Chart, EveryFurtherKindBecomesAPictureWhateverTheNames) {
     all.of<DetailRow>() = details;
     all.of<TimelineRow>() = slices;
     all.of<SamplingRow>() = runs;
-    for (const char* kind :
-         {"misses-by-class", "net-benefit", "traffic-by-depth", "timeline", "sampling-error"}) {
+    for (const char* kind : {"misses-by-class", "net-benefit", "traffic-by-layout", "traffic-by-depth",
+                             "timeline", "sampling-error"}) {
         const Chart chart = compose(kind, all);
         ASSERT_EQ(chart.skipped, "") << kind;
         EXPECT_EQ(chart.width, 440u);  // a column of a paper

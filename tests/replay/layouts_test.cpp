@@ -39,7 +39,10 @@ TEST(Layouts, EachIsABijectionWithoutOverlaps) {
                        .share_shape();
         const bool apart = spec.find('+') != spec.npos;
         if (apart) tree = std::make_shared<spatial::WithFound>(tree, "with");
-        const Layout layout = make_layout(spec, *tree);
+        const std::vector<trace::Photon> cloud = spatial::uniform_photons(photons, 3);
+        std::vector<trace::Vec3> positions;
+        for (const trace::Photon& photon : cloud) positions.push_back(photon.position);
+        const Layout layout = make_layout(spec, *tree, positions);
         std::vector<Extent> extents;
         for (const spatial::ElementRange& range : tree->ranges())
             for (std::uint32_t e = range.first; e < range.first + range.count; ++e)
@@ -67,6 +70,26 @@ TEST(Layouts, OrdersAreThoseDrawnByHand) {
     // Five levels are two and three: the lower three are one and two.
     EXPECT_THAT(van_emde_boas_order(LeftBalanced(17)).elements,
                 ElementsAre(1, 2, 3, 4, 8, 16, 17, 9, 5, 10, 11, 6, 12, 13, 7, 14, 15));
+}
+
+TEST(Layouts, AlongACurveElementsLieAsTheirPhotonsDo) {
+    // The eight corners of a cube, z fastest: the heap's elements 1 to 8.
+    std::vector<trace::Vec3> corners;
+    for (int i = 0; i < 8; ++i)
+        corners.push_back(
+            {static_cast<float>(i / 4), static_cast<float>(i / 2 % 2), static_cast<float>(i % 2)});
+    std::swap(corners[1], corners[6]);
+    const LeftBalanced tree(8);
+    EXPECT_THAT(curve_order(tree, corners, SpaceCurve::morton).elements, ElementsAre(1, 7, 3, 4, 5, 6, 2, 8));
+    const std::vector<std::uint32_t> hilbert = curve_order(tree, corners, SpaceCurve::hilbert).elements;
+    for (std::size_t i = 1; i < hilbert.size(); ++i) {
+        const trace::Vec3 step = corners[hilbert[i] - 1] - corners[hilbert[i - 1] - 1];
+        EXPECT_EQ(trace::dot(step, step), 1) << "from corner to corner along an edge";
+    }
+    // Leaves by the middle of their photons: 0 1 at 9.5, 2 3 at 3, and node 0 before them.
+    const spatial::BucketKd buckets(spatial::photons_on_a_line({0, 1, 2, 3}), {.leaf_photons = 2});
+    const std::vector<trace::Vec3> moved{{9, 0, 0}, {10, 0, 0}, {1, 0, 0}, {5, 0, 0}};
+    EXPECT_THAT(curve_order(buckets.shape(), moved, SpaceCurve::morton).elements, ElementsAre(0, 2, 1));
 }
 
 TEST(Layouts, ClustersFillALine) {
@@ -162,6 +185,7 @@ TEST(Layouts, WhatIsNotInTheTablesIsRefused) {
     refused("clusters-20:line=8", "line");
     refused("heap-20:top=41", "top");
     refused("heap-14+6", "expected found=1");
+    refused("hilbert-20", "without positions");
     try {
         make_layout("heap-12+6", spatial::WithFound(std::make_shared<LeftBalanced>(3), "heap"));
         ADD_FAILURE() << "taken";

@@ -1,0 +1,90 @@
+#include "charts/kinds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "charts/caption.h"
+#include "charts/lettering.h"
+#include "charts/series.h"
+
+namespace regather::charts {
+namespace {
+
+constexpr double line_pixels = 36;  // of a structure and its layout, whose names stand above the marks
+constexpr double name_width = 400;
+constexpr double marks_at = 0.3, floor_from = 0.1, floor_to = 0.5;  // of a line's height
+
+struct Place {
+    std::string structure, layout;
+    std::vector<results::Row> rows;
+};
+
+/// In the order of the rows' first appearance.
+std::vector<Place> places_of(std::span<const results::Row> rows, const results::Geometry& cache) {
+    std::vector<Place> places;
+    for (const results::Row& row : rows) {
+        if (results::geometry_of(row) != cache || row.traffic_bytes.value_or(0) == 0) continue;
+        auto place = std::find_if(places.begin(), places.end(), [&](const Place& p) {
+            return p.structure == row.structure && p.layout == row.layout;
+        });
+        if (place == places.end()) place = places.insert(place, {row.structure, row.layout, {}});
+        place->rows.push_back(row);
+    }
+    return places;
+}
+
+}  // namespace
+
+Chart traffic_by_layout(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options) {
+    const std::vector<results::Row>& all = rows.of<results::Row>();
+    const auto common = results::commonest_geometry(all);
+    if (!common) return skip("no row has cache_bytes, line_bytes and ways");
+    const results::Geometry cache = options.cache.value_or(*common);
+    const std::vector<Place> places = places_of(all, cache);
+    if (places.size() < 2) return skip(fmt::format("needs {}", kind.needs));
+
+    Panel panel;
+    panel.height = line_pixels * static_cast<double>(places.size());
+    panel.up.scale = {false, 0, static_cast<double>(places.size()), {}};
+    panel.bare = true;
+    std::vector<double> values;
+    std::vector<Curve> every;
+    std::set<std::string> in_legend;
+    const auto once = [&](const std::string& label) { return in_legend.insert(label).second ? label : ""; };
+    for (std::size_t p = 0; p < places.size(); ++p) {
+        const double base = static_cast<double>(places.size() - 1 - p), height = base + marks_at;
+        for (Curve& curve : curves(places[p].rows, Along::cache, {cache, options.tile, options.bins})) {
+            const results::Row& row = *curve.rows.front();
+            Line line = line_of(curve);
+            line.label = once(curve.label);
+            line.form = Line::Form::points;
+            line.points = {{static_cast<double>(*row.traffic_bytes), height}};
+            values.push_back(line.points[0].x);
+            panel.lines.push_back(std::move(line));
+            every.push_back(std::move(curve));
+        }
+        if (const results::Count floor = places[p].rows.front().compulsory_bytes; floor.value_or(0) > 0) {
+            const auto bytes = static_cast<double>(*floor);
+            values.push_back(bytes);
+            panel.lines.push_back({.label = once("floor: each line fetched once"),
+                                   .colour = "#777777",
+                                   .width = 2.5,
+                                   .form = Line::Form::plain,
+                                   .points = {{bytes, base + floor_from}, {bytes, base + floor_to}}});
+        }
+    }
+    const Scale across = log_scale(values, byte_number);
+    for (std::size_t p = 0; p < places.size(); ++p)
+        panel.notes.push_back(
+            {across.low, static_cast<double>(places.size() - 1 - p) + 0.72,
+             fitting(fmt::format("{}, {}", places[p].structure, places[p].layout), 11, name_width)});
+    std::string text = results::geometry_text(cache);
+    return draw({std::string(kind.title),
+                 caption(every, "") + " · " + text.insert(text.find(','), " cache"),
+                 {"traffic", across},
+                 {std::move(panel)}});
+}
+
+}  // namespace regather::charts
