@@ -24,7 +24,7 @@ namespace {
 struct Options {
     std::filesystem::path trace, csv, timeline;
     std::vector<std::string> orders, caches{"128K:128:8"};
-    std::string onchip = "1M";
+    std::string onchip = "1M", layout = "heap-20";
     std::uint64_t slices = 200;
     bool no_buffers = false, force = false;
 };
@@ -44,7 +44,8 @@ void run(const Options& options, const Console& console) {
     const auto caches = cachesim::parse_caches(options.caches);
     const std::uint64_t onchip = trace::parse_size(options.onchip);
     trace::TraceReader trace(options.trace);
-    const experiment::Measurement measurement(trace, reads, onchip);
+    experiment::Measurement measurement(trace, reads, onchip);
+    measurement.lay_out(options.layout);
     const std::string& scene = trace.info().scene;
     experiment::Detail detail;
     {
@@ -56,12 +57,13 @@ void run(const Options& options, const Console& console) {
     write(options.csv, detail.rows, trace, console);
     write(options.timeline, detail.slices, trace, console);
     for (std::size_t c = 0; c < caches.size(); ++c)
-        console.print("{}{} | {} queries | {} | on chip {}\n{}", c == 0 ? "" : "\n", trace::shown(scene),
+        console.print("{}{} | {} queries | {} | {} | on chip {}\n{}", c == 0 ? "" : "\n", trace::shown(scene),
                       results::decimal_count(static_cast<double>(measurement.queries())),
-                      cachesim::cache_text(caches[c]), options.onchip,
+                      measurement.layout().name(), cachesim::cache_text(caches[c]), options.onchip,
                       results::text_of(experiment::detail_table(detail.lines[c])));
     console.print(
-        "traffic = fetched and written back; overfetch = traffic / bytes used; 3C = compulsory / capacity / "
+        "structure = what was searched; traffic = fetched and written back; overfetch = traffic / bytes "
+        "used; 3C = compulsory / capacity / "
         "conflict misses\n");
     if (detail.unknown_buffers)
         console.print("a library's buffers are not simulated: how they are used is not known\n");
@@ -79,6 +81,9 @@ void add_detail(Command& command) {
               "orderings as NAME:parameter=value,...; or the path of a shared library")
         .required();
     command.list("--cache", options->caches, "caches as SIZE:LINE:WAYS; WAYS may be full");
+    command.option(
+        "--layout", options->layout,
+        "where each node lies in memory, as ORDER-RECORD:parameter=value,...; see regather layouts");
     command.option("--onchip", options->onchip, "bytes that the chip can buffer");
     command.option("--slices", options->slices, {1, std::uint64_t{1} << 32},
                    "slices of the run in the timeline");

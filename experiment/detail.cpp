@@ -79,15 +79,16 @@ Detail detail(const Measurement& measurement, const std::string& scene, const De
                 measurement.walks(), measurement.layout(), ordered.permutation, use, {cache, request.slices},
                 listening(progress, "replaying " + parsed.spec.text, "queries", measurement.queries()));
             auto row = row_of<results::DetailRow>(scene, parsed.spec, cache);
-            row.layout = measurement.layout().name;
+            row.layout = measurement.layout().name();
             row.policy = "lru";
             add_rows(result, told, row, row_of<results::TimelineRow>(scene, parsed.spec, cache), buffers);
             DetailLine& line = result.lines[c].emplace_back();
             line.ordering = parsed.spec.text;
             line.sum = told.sum();
             line.traffic_bytes = told.traffic_bytes();
-            line.photon_bytes = told.traffic_bytes(trace::Region::photons);
-            if (buffers) line.buffer_bytes = told.traffic_bytes(trace::Region::reorder_buffer);
+            const std::uint64_t buffer_bytes = told.traffic_bytes(trace::Region::reorder_buffer);
+            line.structure_bytes = line.traffic_bytes - buffer_bytes;
+            if (buffers) line.buffer_bytes = buffer_bytes;
             line.reorder_bytes = ordered.cost.reorder_bytes;
         }
     }
@@ -96,14 +97,14 @@ Detail detail(const Measurement& measurement, const std::string& scene, const De
 
 results::Table detail_table(std::span<const DetailLine> lines) {
     results::Table out({{"ordering", results::Align::left},
-                        {"photons"},
+                        {"structure"},
                         {"buffers"},
                         {"sum"},
                         {"overfetch"},
                         {"3C [%]"},
                         {"counted reorder"}});
     for (const DetailLine& line : lines)
-        out.add({line.ordering, results::decimal_bytes(line.photon_bytes),
+        out.add({line.ordering, results::decimal_bytes(line.structure_bytes),
                  line.buffer_bytes ? results::decimal_bytes(*line.buffer_bytes) : "",
                  results::decimal_bytes(line.traffic_bytes),
                  line.sum.used_bytes == 0

@@ -26,8 +26,8 @@ struct DetailRequest {
 /// An ordering through a cache.
 struct DetailLine {
     std::string ordering;
-    cachesim::ClassStats sum;  ///< Of all regions.
-    std::uint64_t traffic_bytes, photon_bytes;
+    cachesim::ClassStats sum;                      ///< Of all regions.
+    std::uint64_t traffic_bytes, structure_bytes;  ///< Of all; of what was searched.
     std::optional<std::uint64_t> buffer_bytes;  ///< None when the accesses of its buffers were not simulated.
     std::uint64_t reorder_bytes;                ///< As the ordering's cost counts them.
 };

@@ -6,6 +6,7 @@
 
 #include "experiment/workload.h"
 #include "replay/buffered.h"
+#include "replay/layouts/catalogue.h"
 #include "replay/levels.h"
 #include "trace/error.h"
 #include "trace/text.h"
@@ -31,6 +32,10 @@ Measurement::Measurement(trace::TraceReader& trace, const reorder::Reads& reads,
       layout_(replay::heap_20(walks_.structure())),
       work_(workload(trace, reads)),
       onchip_bytes_(onchip_bytes) {}
+
+void Measurement::lay_out(std::string_view spec) {
+    lay_out(replay::make_layout(spec, walks_.structure(), record_positions()));
+}
 
 void Measurement::lay_out(replay::Layout layout) {
     layout_ = std::move(layout);
@@ -107,7 +112,7 @@ std::vector<results::Row> Measurement::rows(const reorder::ParsedOrdering& parse
         row.parameters = spec.text;
         row.structure = trace_.info().structure;
         if (trace_.info().map != "global") row.structure += " " + trace_.info().map;
-        row.layout = layout_.name;
+        row.layout = layout_.name();
         row.policy = "lru";
         row.cache_bytes = traffic.config.size_bytes;
         row.line_bytes = traffic.config.line_bytes;

@@ -43,7 +43,9 @@ public:
     std::uint64_t queries() const { return walks_.queries(); }
     const replay::WalkStore& walks() const { return walks_; }
     const replay::Layout& layout() const { return layout_; }
-    /// Another layout; what was prepared and found for the one before is forgotten. heap-20 at first.
+    /// Another layout by its spec (replay/layouts/catalogue.h, also for errors); what was prepared and found
+    /// for the one before is forgotten. heap-20 at first.
+    void lay_out(std::string_view spec);
     void lay_out(replay::Layout layout);
     /// Of the photons, as the structure counts its records.
     std::vector<trace::Vec3> record_positions() const { return spatial::record_positions(trace_); }

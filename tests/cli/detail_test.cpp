@@ -62,6 +62,28 @@ TEST(Detail, RowsSumToThoseOfReplay) {
     }
 }
 
+TEST(Detail, AnotherLayoutIsToldApartByRegionAndSumsToWhatReplayTells) {
+    const Scratch scratch;
+    const std::string to = (scratch / "t").string(), csv = (scratch / "rows.csv").string();
+    expect_done(
+        {"walk", (captured_box() / "trace").string(), "--structure", "midpoint-kd:leaf=7,found=1", "-o", to});
+    const Words what{
+        to, "--order", "hilbert", "--cache", "4K:128:8", "--layout", "van-emde-boas-12+6:node=10"};
+    expect_done(Words{"detail"} + what + Words{"--csv", csv});
+    const auto replayed = results::from_csv(expect_done(Words{"replay"} + what).out, "stdout");
+    ASSERT_EQ(replayed.size(), 1u);
+    std::map<std::string, std::uint64_t> traffic;
+    std::uint64_t sum = 0;
+    for (const results::DetailRow& row : results::read_csv<results::DetailRow>(csv)) {
+        EXPECT_EQ(row.layout, "van-emde-boas-12+6:node=10");
+        traffic[row.region] += *row.traffic_bytes;
+        sum += *row.traffic_bytes;
+    }
+    EXPECT_EQ(sum, replayed[0].traffic_bytes);
+    for (const char* region : {"nodes", "photons", "photon_power"}) EXPECT_GT(traffic[region], 0u) << region;
+    EXPECT_EQ(traffic["reorder_buffer"], 0u);
+}
+
 TEST(Detail, BuffersThatDoNotFitTheChipAreARegion) {
     const Scratch scratch;
     const auto buffer_traffic = [&](const std::string& onchip) {
@@ -81,7 +103,8 @@ TEST(Detail, BuffersThatDoNotFitTheChipAreARegion) {
 TEST(Detail, TheTableTellsTrafficAndALibrarysBuffersAreNotKnown) {
     const std::string trace = (captured_box() / "trace").string();
     const Outcome naive = expect_done({"detail", trace, "--order", "naive", "--cache", "4K:128:8"});
-    for (const char* word : {"box |", "4096:128:8", "photons", "buffers", "overfetch", "3C", "\nnaive "})
+    for (const char* word :
+         {"box |", "heap-20 |", "4096:128:8", "structure", "buffers", "overfetch", "3C", "\nnaive "})
         EXPECT_THAT(naive.out, HasSubstr(word));
     EXPECT_THAT(naive.out, Not(HasSubstr("library")));
 }
