@@ -83,7 +83,9 @@ TEST(Replay, EachLayoutGetsRowsOfItsOwn) {
     for (std::size_t r = 0; r < all.size(); ++r) {
         EXPECT_EQ(all[r].layout, names[r / 4]);
         EXPECT_GE(all[r].traffic_bytes, all[r].compulsory_bytes);
-        if (r % 2 == 1) EXPECT_EQ(all[r].traffic_bytes, all[r].compulsory_bytes) << "a cache for all of it";
+        if (r % 2 == 1) {
+            EXPECT_EQ(all[r].traffic_bytes, all[r].compulsory_bytes) << "a cache for all of it";
+        }
         EXPECT_EQ(all[r].oracle_bytes, all[0].oracle_bytes);
     }
     for (std::size_t r = 0; r < 4; ++r) {

@@ -179,8 +179,9 @@ TEST(WalkAgain, InEveryStructureTheSamePhotonsAreFound) {
         for (const char* column : {"photon", "query_position", "query_pixel", "ray_gather_origin"})
             EXPECT_EQ(found.digests().at(column), original.digests().at(column)) << column;
         EXPECT_EQ(found.digests().at("walk") == original.digests().at("walk"), !buckets);
-        if (!buckets)
+        if (!buckets) {
             EXPECT_EQ(found.info().visited_nodes > original.info().visited_nodes, name != "left-balanced-kd");
+        }
         const std::vector<results::Row> rows =
             results::from_csv(expect_done({"replay", to, "--order", "random", "naive", "--layout", "heap-20",
                                            "depth-first-32:node=16", "--cache", "4K:128:8", "4M:128:full"})
@@ -190,7 +191,9 @@ TEST(WalkAgain, InEveryStructureTheSamePhotonsAreFound) {
         for (const results::Row& row : rows) {
             EXPECT_EQ(row.structure, spec);
             EXPECT_GE(row.traffic_bytes, row.compulsory_bytes);
-            if (*row.cache_bytes > 4096) EXPECT_EQ(row.traffic_bytes, row.compulsory_bytes);
+            if (*row.cache_bytes > 4096) {
+                EXPECT_EQ(row.traffic_bytes, row.compulsory_bytes);
+            }
         }
         EXPECT_EQ(rows[0].layout, buckets ? "heap-20:node=8" : "heap-20");
     }

@@ -94,8 +94,9 @@ TEST(BucketKd, LeavesHoldEveryPhotonOnceAndNoMoreThanAsked) {
                     held += shape.records(e);
                 }
                 EXPECT_EQ(held, photons.size());
-                if (rule == SplitRule::median)
+                if (rule == SplitRule::median) {
                     EXPECT_EQ(shape.leaves(), (photons.size() + leaf - 1) / leaf) << "full leaves";
+                }
             }
 }
 
