@@ -38,6 +38,7 @@ void run(const Nothing&, const Console& console) {
 void add_layouts(Command& command) {
     command.footer(
         "Examples:\n"
+        "  regather layouts             # their orders and records, for:\n"
         "  regather replay out/room/trace --order naive hilbert --layout heap-20 van-emde-boas-20 "
         "clusters-32:line=128");
     command.action(std::make_shared<Nothing>(), run);

@@ -33,7 +33,8 @@ void run(const Nothing&, const Console& console) {
 
 void add_structures(Command& command) {
     command.footer(
-        "Example:\n  regather walk out/room/trace --structure median-kd:leaf=8 -o out/room-median");
+        "Examples:\n  regather structures          # their names, for:\n  regather walk out/room/trace "
+        "--structure median-kd:leaf=8 -o out/room-median");
     command.action(std::make_shared<Nothing>(), run);
 }
 
