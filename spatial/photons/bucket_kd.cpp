@@ -75,8 +75,10 @@ private:
         const Vec3 side = box.extent();
         if (config_.rule == SplitRule::median || level >= most_levels || side[longest(side)] == 0)
             return at_median(items, longest(side));
-        const auto [axis, position] =
+        const std::pair<int, float> plane =
             config_.rule == SplitRule::midpoint ? middle(box, cell) : least_volume(items, box, cell);
+        const int axis = plane.first;
+        const float position = plane.second;
         // Photons on the plane may lie on either side: below, unless nothing lies above.
         auto bound = std::partition(items.begin(), items.end(),
                                     [&](const Item& i) { return i.position[axis] <= position; });
