@@ -24,7 +24,7 @@ namespace {
 struct Options {
     std::filesystem::path trace, csv, timeline;
     std::vector<std::string> orders, caches{"128K:128:8"};
-    std::string onchip = "1M", layout = "heap-20";
+    std::string onchip = "1M", layout;
     std::uint64_t slices = 200;
     bool no_buffers = false, force = false;
 };
@@ -45,7 +45,7 @@ void run(const Options& options, const Console& console) {
     const std::uint64_t onchip = trace::parse_size(options.onchip);
     trace::TraceReader trace(options.trace);
     experiment::Measurement measurement(trace, reads, onchip);
-    measurement.lay_out(options.layout);
+    if (!options.layout.empty()) measurement.lay_out(options.layout);
     const std::string& scene = trace.info().scene;
     experiment::Detail detail;
     {

@@ -23,8 +23,10 @@ void run(const Nothing&, const Console& console) {
                             {"read", Align::right},
                             {"a photon", Align::left}});
     for (const replay::PhotonRecord& record : replay::photon_records())
-        records.add({std::string(record.name), fmt::format("{}", record.stride_bytes),
-                     fmt::format("{}", record.used_bytes), std::string(record.summary)});
+        records.add({std::string(record.name),
+                     record.stride_bytes == 0 ? "" : fmt::format("{}", record.stride_bytes),
+                     record.used_bytes == 0 ? "" : fmt::format("{}", record.used_bytes),
+                     std::string(record.summary)});
     results::Table parameters({{"parameter", Align::left}, {"default", Align::left}, {"what", Align::left}});
     for (const trace::Parameter& parameter : replay::layout_parameters())
         parameters.add(

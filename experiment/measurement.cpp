@@ -29,7 +29,7 @@ Orderings parse_orderings(std::span<const std::string> specs) {
 Measurement::Measurement(trace::TraceReader& trace, const reorder::Reads& reads, std::uint64_t onchip_bytes)
     : trace_(trace),
       walks_(trace),
-      layout_(replay::heap_20(walks_.structure())),
+      layout_(replay::make_layout(replay::default_layout(walks_.structure()), walks_.structure())),
       work_(workload(trace, reads)),
       onchip_bytes_(onchip_bytes) {}
 

@@ -44,7 +44,7 @@ public:
     const replay::WalkStore& walks() const { return walks_; }
     const replay::Layout& layout() const { return layout_; }
     /// Another layout by its spec (replay/layouts/catalogue.h, also for errors); what was prepared and found
-    /// for the one before is forgotten. heap-20 at first.
+    /// for the one before is forgotten. default_layout() at first.
     void lay_out(std::string_view spec);
     void lay_out(replay::Layout layout);
     /// Of the photons, as the structure counts its records.

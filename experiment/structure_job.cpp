@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 bool of_the_search(std::string_view column) {
     static constexpr std::array<std::string_view, 5> own{"walk", "query_walk_bytes", "tree_child",
                                                          "tree_leaf_begin", "tree_photon"};
-    return std::find(own.begin(), own.end(), column) != own.end();
+    return std::find(own.begin(), own.end(), column) != own.end() || column.starts_with("element_");
 }
 
 }  // namespace
@@ -31,13 +31,13 @@ std::string run(const StructureJob& job, const ProgressListener& progress) {
     if (fs::equivalent(job.trace, job.folder, error))
         throw trace::UsageError(
             fmt::format("--output: found {}, expected another folder than the trace's", job.folder.string()));
+    const std::span<const trace::Photon> photons = from.column<trace::Photon>("photon");
     trace::TraceInfo info = from.info();
     const std::optional<float> radius = replay::search_radius(from);
     if (!radius)
         throw trace::DataError(
             fmt::format("{}: parameters: found no radius, expected how far the queries were searched",
                         (from.folder() / "trace.json").string()));
-    const std::span<const trace::Photon> photons = from.column<trace::Photon>("photon");
     const std::span<const trace::Vec3> positions = from.column<trace::Vec3>("query_position");
     const auto search = spatial::build(spec, photons, info.k, *radius);
 

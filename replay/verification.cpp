@@ -57,10 +57,7 @@ public:
     Verified run(const QueriesDone& progress) {
         check_parameters();
         trace_.verify_all();
-        const spatial::PhotonKd tree(trace_.column<trace::Photon>("photon"));
-        if (const std::uint32_t node = spatial::first_disorder(tree); node != tree.size())
-            refuse("photon", node, "a photon at no finite place or on the wrong side of a split",
-                   "a left-balanced kd-tree");
+        if (trace_.has("photon")) check_photons();
         check_queries();
         for (const trace::ColumnEntry& entry : trace::column_table())
             if (entry.name.starts_with("ray_")) check_rays(entry.name);
@@ -91,6 +88,12 @@ private:
     static std::string text(float x) { return fmt::format("{}", x); }
     static std::string text(std::uint32_t n) { return fmt::format("{}", n); }
 
+    void check_photons() {
+        const spatial::PhotonKd tree(trace_.column<trace::Photon>("photon"));
+        if (const std::uint32_t node = spatial::first_disorder(tree); node != tree.size())
+            refuse("photon", node, "a photon at no finite place or on the wrong side of a split",
+                   "a left-balanced kd-tree");
+    }
     void check_pixels(std::string_view column) {
         const std::uint64_t pixels = std::uint64_t{info_.image_width} * info_.image_height;
         check_rows<std::uint32_t>(column,
@@ -178,11 +181,11 @@ private:
         if (info_.found_photons > most)
             refuse("found_photons", info_.found_photons, fmt::format("at most {}", most));
         const std::optional<float> radius = search_radius(trace_);
-        if (!radius) return;
+        if (!radius || !trace_.has("photon")) return;
         const auto search = spatial::build(spatial::parse_structure(info_.structure),
                                            trace_.column<trace::Photon>("photon"), info_.k, *radius);
         if (!search->structure()->same_as(*spatial::open_structure(trace_)))
-            refuse("tree_child", 0, "another tree",
+            refuse(trace_.has("tree_child") ? "tree_child" : "element_parent", 0, "another structure",
                    "the one that " + info_.structure + " builds over the photons");
         if (const std::span<const std::uint32_t> places = search->photon_at(); !places.empty()) {
             const std::span<const std::uint32_t> stored = trace_.column<std::uint32_t>("tree_photon");

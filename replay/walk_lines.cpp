@@ -16,8 +16,12 @@ WalkLines::WalkLines(const Layout& layout, std::uint32_t line_bytes)
 }
 
 std::span<const Line> WalkLines::touches(std::span<const std::uint32_t> elements) {
-    const std::size_t most_lines = (layout_->widest() >> shift_) + 2;
-    if (touches_.size() < elements.size() * most_lines) touches_.resize(elements.size() * most_lines);
+    std::size_t most = elements.size() * ((std::size_t{layout_->widest()} >> shift_) + 2);
+    if (touches_.size() < most) {
+        // Few elements may be as wide as the widest.
+        most = 2 * elements.size() + (layout_->bytes(elements) >> shift_);
+        if (touches_.size() < most) touches_.resize(2 * most);
+    }
     Line* to = touches_.data();
     layout_->for_each(elements, [&](std::uint32_t, std::uint64_t address, std::uint32_t bytes) {
         const std::uint64_t first = address >> shift_, last = (address + bytes - 1) >> shift_;

@@ -69,6 +69,14 @@ public:
     virtual std::uint32_t first_record(std::uint32_t element) const {
         return element - range_of(trace::Region::photons).first;
     }
+    /// Whether append_children() and roots() tell how elements hang together.
+    virtual bool tells_children() const { return true; }
+    /// What an element of Region::nodes or Region::directory takes, where a layout says nothing else [bytes].
+    virtual std::uint32_t node_bytes() const { return 8; }
+    /// What each element takes, where the structure says it and no record of a layout [bytes]; else empty.
+    virtual std::span<const std::uint32_t> own_bytes() const { return {}; }
+    /// Where each element lay in the program that was walked; empty where that is not told.
+    virtual std::span<const std::uint64_t> own_addresses() const { return {}; }
     /// Without elements where the structure has none of this region.
     ElementRange range_of(trace::Region region) const {
         for (const ElementRange& range : ranges_)

@@ -28,7 +28,7 @@ inline constexpr int schema_version = 2;
 struct ColumnEntry {
     std::string_view name, group, unit, meaning;
     const ColumnType& (*type)();
-    bool required;  ///< By replay; the others may have been left out.
+    bool required;  ///< By replay; the others may have been left out. `photon` where k is above 0.
 };
 std::span<const ColumnEntry> column_table();
 const ColumnEntry& column_entry(std::string_view name);  ///< UsageError for an unknown name.
@@ -46,7 +46,7 @@ struct TraceInfo {
     std::uint32_t image_width = 0, image_height = 0;  ///< [pixels]
     std::string map{map_names[0]};                    ///< Which photon map: of map_names.
     std::optional<std::uint32_t> frame;               ///< Of the scene's camera path.
-    std::uint32_t k = 0;
+    std::uint32_t k = 0;  ///< Photons of a search; 0: what was searched holds no photons.
     std::uint64_t seed = 0;
     std::string structure{"left-balanced-kd"};  ///< What was walked: a spec of spatial/photons/structures.h.
     std::uint32_t structure_version = 1;
@@ -76,8 +76,8 @@ private:
 };
 
 /// Opens a finished trace. Throws DataError that names file, field, found and expected when it is not one, or
-/// is of another schema version or map, or its image is empty, or k is 0, or a required column is
-/// not listed, or a listed one is missing or has another type or row count than trace.json says.
+/// is of another schema version or map, or its image is empty, or k is 0 beside photons, or a required column
+/// is not listed, or a listed one is missing or has another type or row count than trace.json says.
 class TraceReader {
 public:
     explicit TraceReader(std::filesystem::path folder);

@@ -161,10 +161,12 @@ ColumnDigest ColumnWriter::finish(OnDisk on_disk) {
     return digest;
 }
 
-MappedColumn::MappedColumn(const std::filesystem::path& path, const ColumnType& type)
-    : row_bytes_(type.row_bytes) {
+MappedColumn::MappedColumn(const std::filesystem::path& path, const ColumnType& one,
+                           const ColumnType& other) {
+    const std::string readable =
+        one.readable == other.readable ? one.readable : fmt::format("{} or {}", one.readable, other.readable);
     const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (fd < 0) refuse(path, std::strerror(errno), fmt::format("a .npy column of {}", type.readable));
+    if (fd < 0) refuse(path, std::strerror(errno), fmt::format("a .npy column of {}", readable));
     struct stat info {};
     if (::fstat(fd, &info) != 0 || !S_ISREG(info.st_mode) || info.st_size < 10) {
         ::close(fd);
@@ -190,16 +192,29 @@ MappedColumn::MappedColumn(const std::filesystem::path& path, const ColumnType& 
         const std::string_view header(bytes + prefix, text_bytes);
 
         const std::string descr = value_of(header, "descr");
-        const bool signed_64 = type.descr == column_type<std::uint64_t>().descr && descr == "'<i8'";
-        if (descr != without_blanks(type.descr) && !signed_64) {
-            std::string foreign = without_blanks(type.descr);
-            for (char& c : foreign)
-                if (c == '<') c = '>';
+        const auto is_signed = [&](const ColumnType& type) {
+            return type.descr == column_type<std::uint64_t>().descr && descr == "'<i8'";
+        };
+        const auto fits = [&](const ColumnType& type) {
+            return descr == without_blanks(type.descr) || is_signed(type);
+        };
+        const ColumnType& type = fits(one) ? one : other;
+        const bool signed_64 = is_signed(type);
+        if (!fits(type)) {
+            const auto foreign = [&](const ColumnType& expected) {
+                std::string swapped = without_blanks(expected.descr);
+                for (char& c : swapped)
+                    if (c == '<') c = '>';
+                return descr == swapped;
+            };
             refuse(path,
-                   descr == foreign ? fmt::format("big-endian type {}", shown(descr))
-                                    : fmt::format("type {}", shown(descr)),
-                   fmt::format("{} ({}, little-endian)", type.descr, type.readable));
+                   foreign(one) || foreign(other) ? fmt::format("big-endian type {}", shown(descr))
+                                                  : fmt::format("type {}", shown(descr)),
+                   one.descr == other.descr
+                       ? fmt::format("{} ({}, little-endian)", one.descr, readable)
+                       : fmt::format("{} or {} ({}, little-endian)", one.descr, other.descr, readable));
         }
+        row_bytes_ = type.row_bytes;
         if (value_of(header, "fortran_order") != "False") refuse(path, "Fortran order", "C order");
         const std::string shape = value_of(header, "shape");
         const char* first = shape.data() + 1;

@@ -66,12 +66,16 @@ private:
 /// of int64, NumPy's own choice for whole numbers, when no value is negative.
 class MappedColumn {
 public:
-    MappedColumn(const std::filesystem::path& path, const ColumnType& type);
+    MappedColumn(const std::filesystem::path& path, const ColumnType& type)
+        : MappedColumn(path, type, type) {}
+    /// Of the one type or the other: row_bytes() tells which.
+    MappedColumn(const std::filesystem::path& path, const ColumnType& type, const ColumnType& other);
     ~MappedColumn();
     MappedColumn(MappedColumn&&) noexcept;
     MappedColumn& operator=(MappedColumn&&) noexcept;
 
     std::uint64_t size() const { return rows_; }
+    std::size_t row_bytes() const { return row_bytes_; }
     std::uint64_t checksum() const;  ///< XXH3-64 of the rows' bytes; reads them all.
     template <class T>
     std::span<const T> rows() const {

@@ -19,27 +19,30 @@ namespace {
 
 constexpr std::uint64_t region_alignment = 4096;
 
-constexpr std::array<LayoutOrder, 7> orders{{
+constexpr std::array<LayoutOrder, 8> orders{{
     {"heap", "by number: a left-balanced tree level by level, children of i at 2i and 2i + 1"},
-    {"depth-first", "each element before those below it, subtree by subtree"},
-    {"breadth-first", "level by level"},
-    {"van-emde-boas", "the upper half of the levels, then each subtree below, again so"},
-    {"hilbert", "photons, or their leaves, along a Hilbert curve; inner nodes depth-first"},
-    {"morton", "the same along the Morton curve"},
-    {"clusters", "groups of an element and what hangs below it that fill a line (line=128)"},
+    {"depth-first", "each element before those below it, subtree by subtree", true},
+    {"breadth-first", "level by level", true},
+    {"van-emde-boas", "the upper half of the levels, then each subtree below, again so", true},
+    {"hilbert", "photons, or their leaves, along a Hilbert curve; inner nodes depth-first", true},
+    {"morton", "the same along the Morton curve", true},
+    {"clusters", "groups of an element and what hangs below it that fill a line (line=128)", true},
+    {given_order, "where the program had them whose walks were brought"},
 }};
 
-constexpr std::array<PhotonRecord, 5> records{{
+constexpr std::array<PhotonRecord, 6> records{{
     {"20", "as in Jensen 2001: position, power, direction, flags", 20, 20},
     {"32", "the same, padded to 32 bytes", 32, 20},
     {"16", "compressed to 16 bytes", 16, 16},
     {"14+6", "position and axis; power and direction apart, read of the photons found", 14, 14, 6},
     {"12+6", "position; power and direction apart, read of the photons found", 12, 12, 6, false},
+    {own_record, "as many as each element says that it takes: of brought walks", 0, 0},
 }};
 
 constexpr trace::Parameter parameters[] = {
     {"line", "128", "bytes of the line that a cluster fills, a power of two from 16 to 4096"},
-    {"node", "8", "bytes of an inner node that holds no photon, 4 to 1024"},
+    {"node", "",
+     "bytes of an inner node that holds no photon, or of a directory's entry, 4 to 1024; the structure's"},
     {"top", "0", "levels from the root that are kept on chip, 0 to 40"},
 };
 
@@ -68,14 +71,18 @@ struct Sizes {
         return ranges[r].region;
     }
     std::uint32_t taken(std::uint32_t element) const {
-        if (region(element) == trace::Region::nodes) return node_bytes;
+        if (const std::span<const std::uint32_t> own = structure.own_bytes(); !own.empty())
+            return own[element];
+        if (region(element) == trace::Region::nodes || region(element) == trace::Region::directory)
+            return node_bytes;
         if (region(element) == trace::Region::photon_power) return record.apart_bytes;
         return record.stride_bytes * structure.records(element);
     }
     /// The padding behind the last photon is not read.
     std::uint32_t used(std::uint32_t element) const {
         const std::uint32_t bytes = taken(element);
-        if (region(element) != trace::Region::photons || bytes == 0) return bytes;
+        if (region(element) != trace::Region::photons || bytes == 0 || record.name == own_record)
+            return bytes;
         return bytes - (record.stride_bytes - record.used_bytes);
     }
 };
@@ -122,6 +129,50 @@ std::vector<Extent> extents_of(const Placement& placement, const Sizes& sizes, s
     return extents;
 }
 
+/// Elements at addresses of their own.
+std::vector<Extent> extents_at(std::span<const std::uint64_t> addresses, const Sizes& sizes,
+                               std::uint32_t top) {
+    std::vector<Extent> extents(addresses.size());
+    std::uint64_t end = 0;
+    for (std::uint32_t e = 0; e < extents.size(); ++e) {
+        const std::uint32_t bytes = sizes.structure.level(e) < top ? 0 : sizes.taken(e);
+        extents[e] = {addresses[e], bytes};
+        if (bytes > 0) end = std::max(end, addresses[e] + bytes);
+    }
+    if (end > most_layout_bytes)
+        throw trace::UsageError(fmt::format(
+            "layout: order {}: found elements over {} bytes of memory, gaps shortened, expected at "
+            "most {}",
+            given_order, end, most_layout_bytes));
+    return extents;
+}
+
+/// Who says where elements lie and what they take, and who is asked.
+void check_suits(const LayoutOrder& order, const PhotonRecord& record, const spatial::Structure& structure) {
+    if (structure.end() == 0) return;
+    const bool own = !structure.own_bytes().empty();
+    if (own && record.name != own_record)
+        throw trace::UsageError(
+            fmt::format("layout: record {}: found {}, whose elements say how many bytes they take, expected "
+                        "record {}",
+                        record.name, structure.name(), own_record));
+    if (!own && record.name == own_record)
+        throw trace::UsageError(
+            fmt::format("layout: record {}: found {}, whose elements do not say how many "
+                        "bytes they take, expected another record",
+                        own_record, structure.name()));
+    if (order.name == given_order && structure.own_addresses().empty())
+        throw trace::UsageError(
+            fmt::format("layout: order {}: found {} without addresses, expected another "
+                        "order (element_address.npy brings them)",
+                        given_order, structure.name()));
+    if (order.needs_children && !structure.tells_children())
+        throw trace::UsageError(fmt::format(
+            "layout: order {}: found {}, whose elements do not say what they hang below, expected "
+            "heap or given (element_parent.npy brings it)",
+            order.name, structure.name()));
+}
+
 }  // namespace
 
 std::span<const LayoutOrder> layout_orders() {
@@ -145,7 +196,9 @@ Layout make_layout(std::string_view spec, const spatial::Structure& structure,
     const LayoutOrder& order = row(orders, "order", name.substr(0, dash));
     const PhotonRecord& record = row(records, "record", name.substr(dash + 1));
     const trace::Parameters given(name, parameters, spec.substr(std::min(colon + 1, spec.size())));
-    const std::uint32_t line = given.count("line"), node = given.count("node"), top = given.count("top");
+    const std::uint32_t line = given.count("line"),
+                        node = given.given_count("node").value_or(structure.node_bytes()),
+                        top = given.count("top");
     trace::require_range(name, "line", line, 16, 4096);
     trace::require_range(name, "node", node, 4, 1024);
     trace::require_range(name, "top", top, 0, 40);
@@ -154,7 +207,10 @@ Layout make_layout(std::string_view spec, const spatial::Structure& structure,
 
     const Sizes sizes{structure, record, node};
     const bool clusters = order.name == "clusters";
-    const bool nodes = structure.range_of(trace::Region::nodes).count > 0;
+    const bool owns = record.name == own_record;
+    const bool nodes = !owns && (structure.range_of(trace::Region::nodes).count > 0 ||
+                                 structure.range_of(trace::Region::directory).count > 0);
+    check_suits(order, record, structure);
     if (record.apart_bytes > 0 && structure.end() > 0 &&
         structure.range_of(trace::Region::photon_power).count == 0)
         throw trace::UsageError(
@@ -173,6 +229,8 @@ Layout make_layout(std::string_view spec, const spatial::Structure& structure,
     if (clusters) tell("line", line);
     if (nodes) tell("node", node);
     if (top > 0) tell("top", top);
+    if (order.name == given_order)
+        return {std::move(text), structure, extents_at(given_addresses(structure), sizes, top)};
     if (order.name == "heap" && top == 0 && dynamic_cast<const spatial::LeftBalanced*>(&structure))
         return {std::move(text), structure, 0, record.stride_bytes, record.used_bytes};
     const bool along_hilbert = order.name == "hilbert", along_morton = order.name == "morton";
@@ -188,6 +246,11 @@ Layout make_layout(std::string_view spec, const spatial::Structure& structure,
         : clusters ? clustered_order(structure, line, [&](std::uint32_t e) { return sizes.taken(e); })
                    : van_emde_boas_order(structure);
     return {std::move(text), structure, extents_of(placement, sizes, line, top)};
+}
+
+std::string default_layout(const spatial::Structure& structure) {
+    if (structure.own_bytes().empty()) return "heap-20";
+    return fmt::format("{}-{}", structure.own_addresses().empty() ? "heap" : given_order, own_record);
 }
 
 }  // namespace regather::replay

@@ -15,6 +15,7 @@ namespace regather::replay {
 
 struct LayoutOrder {
     std::string_view name, summary;
+    bool needs_children = false;  ///< Of a structure that tells them.
 };
 std::span<const LayoutOrder> layout_orders();
 
@@ -25,6 +26,8 @@ struct PhotonRecord {
     std::uint32_t apart_bytes = 0;           ///< Elsewhere, read of the photons found.
     bool tells_axis = true;                  ///< By which axis it splits, where photons are inner nodes.
 };
+/// The order of elements at addresses that were brought, and the record of elements that say their bytes.
+inline constexpr std::string_view given_order = "given", own_record = "own";
 std::span<const PhotonRecord> photon_records();
 std::span<const trace::Parameter> layout_parameters();
 
@@ -32,9 +35,15 @@ std::span<const trace::Parameter> layout_parameters();
 /// each from a multiple of 4096 on, the first from 0; what photons have apart lies in the order of the
 /// photons. Parameters: `line` [bytes], a power of two, for clusters (128); `top`, so many levels from the
 /// root are kept on chip and read nothing (0). Throws trace::UsageError for an unknown word (with the nearest
-/// and all known ones), a value out of range, and a record that does not suit the structure. `positions` of
-/// the records, by number: what orders along a curve want; without, those are refused.
+/// and all known ones), a value out of range, a record or an order that does not suit the structure, and
+/// addresses that are more than most_layout_bytes apart. `positions` of the records, by number: what orders
+/// along a curve want; without, those are refused.
 Layout make_layout(std::string_view spec, const spatial::Structure& structure,
                    std::span<const trace::Vec3> positions = {});
+inline constexpr std::uint64_t most_layout_bytes = std::uint64_t{1} << 34;
+
+/// What suits a structure where nothing is asked for: heap-20; of elements that say their bytes heap-own, or
+/// given-own where they say their addresses, too.
+std::string default_layout(const spatial::Structure& structure);
 
 }  // namespace regather::replay

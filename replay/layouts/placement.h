@@ -44,4 +44,11 @@ enum class SpaceCurve : std::uint8_t { morton, hilbert };
 Placement curve_order(const spatial::Structure& structure, std::span<const trace::Vec3> positions,
                       SpaceCurve curve);
 
+/// Where the program that was walked had each element, by element; only for a structure that tells it. Gaps
+/// are shortened by multiples of gap_stretch to less than twice that: so a table of all lines in between can
+/// be held, no two elements come to share a line, and the sets of a cache whose sets hold up to gap_stretch
+/// bytes with one way are as they were.
+std::vector<std::uint64_t> given_addresses(const spatial::Structure& structure);
+inline constexpr std::uint64_t gap_stretch = std::uint64_t{1} << 28;
+
 }  // namespace regather::replay

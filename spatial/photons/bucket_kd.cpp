@@ -1,14 +1,13 @@
 #include "spatial/photons/bucket_kd.h"
 
-#include <fmt/format.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <bit>
 #include <limits>
 
+#include "spatial/photons/photon_parts.h"
 #include "trace/bounds.h"
-#include "trace/error.h"
 
 namespace regather::spatial {
 namespace {
@@ -155,13 +154,10 @@ private:
 }  // namespace
 
 BucketKd::BucketKd(std::span<const Photon> photons, const Config& config, std::string name) {
-    if (photons.size() >= std::size_t{1} << 31)
-        throw trace::DataError(fmt::format("photons: found {}, expected fewer than 2^31", photons.size()));
+    check_photons(photons);
     std::vector<Item> items(photons.size());
     trace::Bounds3 cell;
     for (std::size_t i = 0; i < photons.size(); ++i) {
-        if (!trace::is_finite(photons[i].position))
-            throw trace::DataError(fmt::format("photon {}: found a position that is not finite", i));
         items[i] = {photons[i].position, static_cast<std::uint32_t>(i)};
         cell.include(photons[i].position);
     }

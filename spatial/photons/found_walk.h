@@ -13,11 +13,12 @@
 
 namespace regather::spatial {
 
-/// Listens to nearest() as WalkRecorder does.
-class FoundRecorder {
+/// Listens to nearest() as Walk does: WalkRecorder or ListWalkRecorder (spatial/list_walk.h).
+template <class Walk>
+class BasicFoundRecorder {
 public:
     /// Photons have numbers below `photons`.
-    explicit FoundRecorder(std::uint32_t photons) : is_found_(photons) {}
+    explicit BasicFoundRecorder(std::uint32_t photons) : is_found_(photons) {}
 
     void visit(std::uint32_t element) { walk_.visit(element); }
     void near(bool upper) { walk_.near(upper); }
@@ -38,10 +39,11 @@ public:
     std::uint64_t visited_nodes() const { return walk_.visited_nodes(); }
 
 private:
-    WalkRecorder walk_;
+    Walk walk_;
     std::vector<std::uint32_t> looked_;
     std::vector<bool> is_found_;
 };
+using FoundRecorder = BasicFoundRecorder<WalkRecorder>;
 
 /// A structure whose walks tell it: an element of Region::photon_power for each photon, behind the others.
 /// The visits of a walk end with those of the photons that were found, in the order in which they were looked
@@ -61,6 +63,8 @@ public:
         searched_->append_children(element, to);
     }
     std::vector<std::uint32_t> roots() const override { return searched_->roots(); }
+    bool tells_children() const override { return searched_->tells_children(); }
+    std::uint32_t node_bytes() const override { return searched_->node_bytes(); }
     std::uint32_t records(std::uint32_t element) const override {
         return element < searched_->end() ? searched_->records(element) : 1;
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "spatial/list_walk.h"
 #include "spatial/photons/found_walk.h"
 #include "spatial/photons/nearest.h"
 #include "spatial/walk.h"
@@ -13,7 +14,9 @@ namespace {
 
 template <class Recorder, class Tree>
 Recording recorded(const Tree& tree, std::span<const Vec3> points, std::uint32_t k, float radius) {
-    constexpr bool tells_found = std::same_as<Recorder, FoundRecorder>;
+    constexpr bool tells_found = requires(Recorder recorder, const NearestSet& found) {
+        recorder.finish(found);
+    };
     constexpr std::size_t chunk_points = 4096;
     struct Chunk {
         std::vector<std::uint8_t> walks;
@@ -26,9 +29,9 @@ Recording recorded(const Tree& tree, std::span<const Vec3> points, std::uint32_t
         NearestSet found(std::min(k, tree.size()), radius);
         Recorder recorder = [&] {
             if constexpr (tells_found)
-                return FoundRecorder(tree.size());
+                return Recorder(tree.size());
             else
-                return WalkRecorder();
+                return Recorder();
         }();
         const std::size_t end = std::min(points.size(), (c + 1) * chunk_points);
         for (std::size_t i = c * chunk_points; i < end; ++i) {
@@ -50,18 +53,44 @@ Recording recorded(const Tree& tree, std::span<const Vec3> points, std::uint32_t
     return all;
 }
 
+/// Walk: what listens where nobody asks which photons were found.
+template <class Walk, class Tree>
+Recording recorded_by(const Tree& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
+                      bool tells_found) {
+    return tells_found ? recorded<BasicFoundRecorder<Walk>>(tree, points, k, radius)
+                       : recorded<Walk>(tree, points, k, radius);
+}
+
 }  // namespace
 
 Recording record_walks(const PhotonKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
                        bool tells_found) {
-    return tells_found ? recorded<FoundRecorder>(tree, points, k, radius)
-                       : recorded<WalkRecorder>(tree, points, k, radius);
+    return recorded_by<WalkRecorder>(tree, points, k, radius, tells_found);
 }
 
 Recording record_walks(const BucketKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
                        bool tells_found) {
-    return tells_found ? recorded<FoundRecorder>(tree, points, k, radius)
-                       : recorded<WalkRecorder>(tree, points, k, radius);
+    return recorded_by<WalkRecorder>(tree, points, k, radius, tells_found);
+}
+
+Recording record_walks(const PhotonGrid& grid, std::span<const Vec3> points, std::uint32_t k, float radius,
+                       bool tells_found) {
+    return recorded_by<ListWalkRecorder>(grid, points, k, radius, tells_found);
+}
+
+Recording record_walks(const HashedGrid& grid, std::span<const Vec3> points, std::uint32_t k, float radius,
+                       bool tells_found) {
+    return recorded_by<ListWalkRecorder>(grid, points, k, radius, tells_found);
+}
+
+Recording record_walks(const PhotonOctree& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
+                       bool tells_found) {
+    return recorded_by<ListWalkRecorder>(tree, points, k, radius, tells_found);
+}
+
+Recording record_walks(const PhotonBvh& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
+                       bool tells_found) {
+    return recorded_by<ListWalkRecorder>(tree, points, k, radius, tells_found);
 }
 
 }  // namespace regather::spatial

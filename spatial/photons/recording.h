@@ -5,14 +5,19 @@
 #include <vector>
 
 #include "spatial/photons/bucket_kd.h"
+#include "spatial/photons/hashed_grid.h"
+#include "spatial/photons/photon_bvh.h"
+#include "spatial/photons/photon_grid.h"
 #include "spatial/photons/photon_kd.h"
+#include "spatial/photons/photon_octree.h"
 
 namespace regather::spatial {
 
 /// Row i belongs to point i.
 struct Recording {
     std::vector<std::uint32_t> walk_bytes;  ///< Length of each walk.
-    std::vector<std::uint8_t> walks;        ///< One after the other (spatial/walk.h, found_walk.h).
+    /// One after the other (spatial/walk.h, list_walk.h, photons/found_walk.h).
+    std::vector<std::uint8_t> walks;
     std::uint64_t found_photons = 0, visited_nodes = 0;
 };
 
@@ -22,6 +27,14 @@ struct Recording {
 Recording record_walks(const PhotonKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
                        bool tells_found = false);
 Recording record_walks(const BucketKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
+                       bool tells_found = false);
+Recording record_walks(const PhotonGrid& grid, std::span<const Vec3> points, std::uint32_t k, float radius,
+                       bool tells_found = false);
+Recording record_walks(const HashedGrid& grid, std::span<const Vec3> points, std::uint32_t k, float radius,
+                       bool tells_found = false);
+Recording record_walks(const PhotonOctree& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
+                       bool tells_found = false);
+Recording record_walks(const PhotonBvh& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
                        bool tells_found = false);
 
 }  // namespace regather::spatial

@@ -11,6 +11,7 @@
 #include "spatial/photons/bucket_kd.h"
 #include "spatial/photons/found_walk.h"
 #include "spatial/photons/left_balanced.h"
+#include "spatial/photons/listed_search.h"
 #include "spatial/photons/photon_kd.h"
 #include "trace/error.h"
 #include "trace/range.h"
@@ -24,6 +25,10 @@ constexpr std::string_view found_help = "1: walks tell which photons were found"
 constexpr trace::Parameter heap_parameters[] = {{"found", "0", found_help}};
 constexpr trace::Parameter bucket_parameters[] = {{"leaf", "8", "most photons of a leaf, 1 to 64"},
                                                   {"found", "0", found_help}};
+
+constexpr trace::Parameter cell_parameters[] = {
+    {"cell", "8", "photons of a cell on average, 1 to 64; see docs/structures.md"},
+    {"found", "0", found_help}};
 
 bool tells_found(const trace::Parameters& given) {
     return given.knows("found") && given.count("found") == 1;
@@ -190,6 +195,20 @@ constexpr StructureEntry table[] = {
     {"voxel-volume-kd",
      "kd-tree with buckets: least volume of cells grown by the search's radius (Wald et al. 2004)", 1,
      bucket_parameters, build_buckets<SplitRule::voxel_volume>, open_tree},
+    {"grid", "uniform grid, searched in shells of cells; an entry a cell, as many as photons / cell", 1,
+     cell_parameters, build_listed<PhotonGrid>, open_listed<PhotonGrid>},
+    {"hashed-grid", "cells with photons in a hash table with open addressing, searched in shells", 1,
+     cell_parameters, build_listed<HashedGrid>, open_listed<HashedGrid>},
+    {"octree", "octree of pointers over photons in Morton order, nearest octant first", 1, bucket_parameters,
+     build_listed<PhotonOctree>, open_listed<PhotonOctree>},
+    {"bvh", "bounding volume hierarchy, halved along the longest side; a node holds both children's boxes", 1,
+     bucket_parameters, build_listed<PhotonBvh>, open_listed<PhotonBvh>},
+    {brought_structure,
+     "whatever another program has walked: elements and visits are columns (docs/bringing_walks.md)",
+     1,
+     {},
+     nullptr,
+     open_brought},
 };
 
 }  // namespace
@@ -223,6 +242,9 @@ StructureSpec parse_structure(std::string_view spec) {
 
 std::unique_ptr<PhotonSearch> build(const StructureSpec& spec, std::span<const Photon> heap, std::uint32_t k,
                                     float radius) {
+    if (!spec.entry->build)
+        throw trace::UsageError(fmt::format(
+            "structure {}: found photons to search, expected columns of visits", spec.entry->name));
     return spec.entry->build(heap, spec.parameters, spec.text, k, radius);
 }
 
@@ -241,7 +263,7 @@ std::shared_ptr<const Structure> open_structure(trace::TraceReader& trace) {
         throw trace::DataError(
             fmt::format("{}: structure_version: found {}, expected {}: walk the trace again (regather walk)",
                         file, trace.info().structure_version, entry->version));
-    if (const std::uint64_t photons = trace.column<Photon>("photon").size();
+    if (const std::uint64_t photons = entry->build ? trace.column<Photon>("photon").size() : 0;
         photons >= std::uint64_t{1} << 31)
         throw trace::DataError(fmt::format("{}: found {} rows, expected fewer than 2^31",
                                            (trace.folder() / "photon.npy").string(), photons));

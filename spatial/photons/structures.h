@@ -32,10 +32,14 @@ struct StructureEntry {
     std::string_view name, summary;
     std::uint32_t version;  ///< Rises when walks of the same photons and queries change.
     std::span<const trace::Parameter> parameters;
+    /// Null where walks are not recorded but brought.
     std::unique_ptr<PhotonSearch> (*build)(std::span<const Photon> heap, const trace::Parameters& given,
                                            std::string text, std::uint32_t k, float radius);
     std::shared_ptr<const Structure> (*open)(trace::TraceReader& trace);
 };
+
+/// Its elements and walks are somebody else's.
+inline constexpr std::string_view brought_structure = "visits";
 
 /// The one table of structures.
 std::span<const StructureEntry> structures();
@@ -51,7 +55,8 @@ struct StructureSpec {
 StructureSpec parse_structure(std::string_view spec);
 
 /// Built over `heap`, photons in the order of left_balanced(); outlived by them. `k` and `radius` are those
-/// of the searches to come, which a rule of splitting may look at. Throws as BucketKd.
+/// of the searches to come, which a rule of splitting may look at. Throws as BucketKd, and trace::UsageError
+/// for a structure whose walks are brought.
 std::unique_ptr<PhotonSearch> build(const StructureSpec& spec, std::span<const Photon> heap, std::uint32_t k,
                                     float radius);
 

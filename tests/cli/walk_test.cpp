@@ -167,9 +167,11 @@ TEST(WalkAgain, InEveryStructureTheSamePhotonsAreFound) {
     const std::string from = (captured_box() / "trace").string();
     const trace::TraceReader original(from);
     for (const spatial::StructureEntry& entry : spatial::structures()) {
-        const bool buckets = !entry.parameters.empty() && entry.parameters[0].name == "leaf";
-        const std::string name(entry.name), spec = buckets ? name + ":leaf=5" : name,
-                                            to = (scratch / name).string();
+        if (!entry.build) continue;
+        const bool buckets = entry.parameters.size() > 1;
+        const std::string name(entry.name),
+            spec = buckets ? fmt::format("{}:{}=5", name, entry.parameters[0].name) : name,
+            to = (scratch / name).string();
         expect_done({"walk", from, "--structure", spec, "-o", to});
         expect_done({"info", to, "--verify"});
         const trace::TraceReader found(to);
@@ -195,14 +197,15 @@ TEST(WalkAgain, InEveryStructureTheSamePhotonsAreFound) {
                 EXPECT_EQ(row.traffic_bytes, row.compulsory_bytes);
             }
         }
-        EXPECT_EQ(rows[0].layout, buckets ? "heap-20:node=8" : "heap-20");
+        EXPECT_THAT(rows[0].layout, testing::StartsWith(buckets ? "heap-20:node=" : "heap-20"));
     }
 }
 
 TEST(WalkAgain, WalksThatTellWhatWasFoundReadPowerOfThatAlone) {
     const Scratch scratch;
     const std::string from = (captured_box() / "trace").string();
-    for (const char* spec : {"left-balanced-kd:found=1", "median-kd:leaf=6,found=1"}) {
+    for (const char* spec : {"left-balanced-kd:found=1", "median-kd:leaf=6,found=1",
+                             "hashed-grid:cell=6,found=1", "octree:leaf=6,found=1"}) {
         const std::string to = (scratch / spec).string();
         expect_done({"walk", from, "--structure", spec, "-o", to});
         expect_done({"info", to, "--verify"});
@@ -233,6 +236,10 @@ TEST(WalkAgain, WhatDoesNotFitIsRefused) {
                    {"leaf is 65, expected 1 to 64"});
     expect_refused(bad_usage, {"walk", from, "--structure", "left-balanced-stack-free:leaf=4", "-o", to},
                    {"takes none"});
+    expect_refused(bad_usage, {"walk", from, "--structure", "visits", "-o", to},
+                   {"structure visits", "expected columns of visits"});
+    expect_refused(bad_usage, {"walk", from, "--structure", "grid:cell=0", "-o", to},
+                   {"cell is 0, expected 1 to 64"});
     expect_refused(bad_usage, {"walk", from, "--structure", "median-kd", "--k", "4", "-o", to},
                    {"expected no --k"});
     expect_refused(bad_usage, {"walk", from, "--structure", "median-kd", "-o", from, "--force"},
@@ -272,6 +279,42 @@ TEST(WalkAgain, ADamagedTreeIsRefusedByColumnAndRow) {
     with("tree_leaf_begin", begins, 3, begins[2], replay, {"tree_leaf_begin.npy: row 3"});
     with("tree_leaf_begin", begins, 0, 1, replay, {"tree_leaf_begin.npy"});
     with("tree_photon", places, 11, places[12], verify, {"tree_photon.npy: row 11"});
+}
+
+TEST(WalkAgain, DamagedElementsAreRefusedByColumnAndRow) {
+    const Scratch scratch;
+    const std::string to = (scratch / "t").string();
+    expect_done({"walk", (captured_box() / "trace").string(), "--structure", "grid", "-o", to});
+    trace::TraceReader reader(to);
+    const auto with = [&](const char* name, std::size_t at, std::uint32_t value, const std::string& command,
+                          const std::vector<std::string>& parts) {
+        const fs::path copy = scratch / "copy";
+        fs::remove_all(copy);
+        fs::copy(to, copy, fs::copy_options::recursive);
+        const auto rows = reader.column<std::uint32_t>(name);
+        std::vector<std::uint32_t> changed(rows.begin(), rows.end());
+        changed.at(at) = value;
+        const trace::ColumnDigest digest =
+            write_column<std::uint32_t>(copy / (std::string(name) + ".npy"), changed);
+        auto json = nlohmann::json::parse(content(copy / "trace.json"));
+        json["columns"][name]["xxh3_64"] = fmt::format("{:016x}", digest.checksum);
+        write(copy / "trace.json", json.dump());
+        std::vector<std::string> words{command, copy.string()};
+        if (command == "info") words.emplace_back("--verify");
+        if (command == "replay") words.insert(words.end(), {"--order", "naive"});
+        expect_refused(bad_data, words, parts);
+    };
+    const auto entries =
+        static_cast<std::uint32_t>(std::count(reader.column<std::uint32_t>("element_region").begin(),
+                                              reader.column<std::uint32_t>("element_region").end(),
+                                              static_cast<std::uint32_t>(trace::Region::directory)));
+    ASSERT_GT(entries, 10u);
+    with("element_region", 3, 1, "replay", {"element_region.npy: row 3: found 1", "5 directory"});
+    with("element_region", 3, 3, "replay", {"element_region.npy: row 4: found 5 again", "together"});
+    with("element_parent", 1, 2, "info", {"element_parent.npy: row 0", "another structure"});
+    with("element_parent", 5, 0xffffffff, "replay", {"element_parent.npy: row 5"});
+    with("tree_leaf_begin", 2, 0, "replay", {"tree_leaf_begin.npy: row 2"});
+    with("tree_photon", 4, 5, "info", {"tree_photon.npy: row 4"});
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "replay/layouts/catalogue.h"
 #include "replay/layouts/placement.h"
+#include "spatial/listed.h"
 #include "spatial/photons/bucket_kd.h"
 #include "spatial/photons/found_walk.h"
 #include "spatial/photons/left_balanced.h"
@@ -23,7 +24,8 @@ std::vector<std::string> all_specs() {
     std::vector<std::string> specs;
     for (const LayoutOrder& order : layout_orders())
         for (const PhotonRecord& record : photon_records())
-            specs.push_back(std::string(order.name) + "-" + std::string(record.name));
+            if (order.name != given_order && record.name != own_record)  // of brought walks, below
+                specs.push_back(std::string(order.name) + "-" + std::string(record.name));
     return specs;
 }
 
@@ -150,6 +152,101 @@ TEST(Layouts, WhatIsApartFollowsItsPhotons) {
     const spatial::WithFound heap(std::make_shared<LeftBalanced>(5), "with");
     EXPECT_EQ(make_layout("depth-first-14+6", heap).extent(6 + 2 - 1), (Extent{4096 + 6, 6}));
     EXPECT_EQ(make_layout("depth-first-14+6", heap).extent(6 + 3 - 1), (Extent{4096 + 24, 6}));
+}
+
+/// Elements that say their bytes, and perhaps more.
+spatial::Listed brought(std::vector<std::uint32_t> bytes, std::vector<std::uint64_t> address = {},
+                        std::vector<std::uint32_t> parent = {}) {
+    const auto count = static_cast<std::uint32_t>(bytes.size());
+    return {"visits",
+            {.ranges = {{trace::Region::other, 0, count}},
+             .parent = std::move(parent),
+             .level = {},
+             .bytes = std::move(bytes),
+             .address = std::move(address),
+             .record_begin = {}}};
+}
+
+TEST(Layouts, ElementsThatSayTheirBytesTakeThem) {
+    const spatial::Listed packed = brought({7, 0, 30, 1});
+    EXPECT_EQ(default_layout(packed), "heap-own");
+    const Layout layout = make_layout("heap-own", packed);
+    EXPECT_EQ(layout.name(), "heap-own");
+    EXPECT_EQ(layout.extent(0), (Extent{0, 7}));
+    EXPECT_EQ(layout.extent(1).bytes, 0u);
+    EXPECT_EQ(layout.extent(2), (Extent{7, 30}));
+    EXPECT_EQ(layout.extent(3), (Extent{37, 1}));
+    EXPECT_EQ(layout.end_byte(), 38u);
+    // 2 is the root with 0 and 3 below it, 1 below 3.
+    const spatial::Listed tree = brought({4, 5, 6, 7}, {}, {2, 3, 2, 2});
+    const Layout depth_first = make_layout("depth-first-own:top=1", tree);
+    EXPECT_EQ(depth_first.extent(2).bytes, 0u);
+    EXPECT_EQ(depth_first.extent(0), (Extent{6, 4}));
+    EXPECT_EQ(depth_first.extent(3), (Extent{10, 7}));
+    EXPECT_EQ(depth_first.extent(1), (Extent{17, 5}));
+}
+
+TEST(Layouts, GivenAddressesStayButForGaps) {
+    // Low bits as they were; gaps of two stretches of 2^28 and more lose all whole stretches but one.
+    constexpr std::uint64_t stretch = gap_stretch, far = 0x7f00'0000'1000;
+    const spatial::Listed heap = brought({64, 8, 16, 0}, {far + 5 * stretch + 7, 0x1234, far, 99});
+    EXPECT_EQ(default_layout(heap), "given-own");
+    const Layout layout = make_layout("given-own", heap);
+    EXPECT_EQ(layout.extent(1), (Extent{0x1234, 8}));
+    EXPECT_EQ(layout.extent(3).bytes, 0u);
+    // The gaps are 0x23c and 9 bytes short of whole stretches: 2^28 and what is short of another one stays.
+    EXPECT_EQ(layout.extent(2).address, 2 * stretch + 0x1000);
+    EXPECT_EQ(layout.extent(0).address - layout.extent(2).address, 2 * stretch + 7);
+    EXPECT_EQ(make_layout("given-own:top=1", heap).end_byte(), 0u);
+    const spatial::Listed near = brought({4, 4}, {stretch, stretch + 4});
+    EXPECT_EQ(make_layout("given-own", near).extent(1).address, stretch + 4);
+}
+
+TEST(Layouts, ShortenedGapsKeepSetsAndMakeNoLineShared) {
+    ASSERT_TRUE(rc::check([] {
+        std::vector<std::uint64_t> address;
+        std::vector<std::uint32_t> bytes;
+        std::uint64_t end = *rc::gen::inRange<std::uint64_t>(0, 1ull << 40);
+        for (int left = *rc::gen::inRange(1, 20); left > 0; --left) {
+            address.push_back(end + *rc::gen::element<std::uint64_t>(0, 3, 100, gap_stretch - 1, gap_stretch,
+                                                                     2 * gap_stretch, 9 * gap_stretch + 5));
+            bytes.push_back(*rc::gen::inRange(1u, 200u));
+            end = address.back() + bytes.back();
+        }
+        const spatial::Listed structure = brought(bytes, address);
+        const Layout layout = make_layout("given-own", structure);
+        for (std::uint32_t e = 0; e < bytes.size(); ++e) {
+            const std::uint64_t now = layout.extent(e).address;
+            RC_ASSERT(now % gap_stretch == address[e] % gap_stretch);
+            if (e == 0) continue;
+            const std::uint64_t gap = address[e] - address[e - 1], shown = now - layout.extent(e - 1).address;
+            RC_ASSERT(shown <= gap);
+            RC_ASSERT((shown == gap || shown >= gap_stretch));
+            RC_ASSERT(shown < 2 * gap_stretch + 200);
+        }
+    }));
+}
+
+TEST(Layouts, WhatBroughtElementsDoNotSayIsRefused) {
+    const auto refused = [](const char* spec, const spatial::Structure& structure, const char* part) {
+        try {
+            make_layout(spec, structure);
+            ADD_FAILURE() << spec << " was taken";
+        } catch (const trace::UsageError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(part)) << spec;
+        }
+    };
+    const spatial::Listed plain = brought({4, 4});
+    refused("heap-20", plain, "expected record own");
+    refused("given-own", plain, "element_address.npy");
+    refused("hilbert-own", plain, "hilbert");
+    for (const char* spec : {"depth-first-own", "breadth-first-own", "van-emde-boas-own", "clusters-own"})
+        refused(spec, plain, "element_parent.npy");
+    refused("heap-own", LeftBalanced(3), "expected another record");
+    refused("given-20", LeftBalanced(3), "without addresses");
+    std::vector<std::uint64_t> address;
+    for (std::uint64_t e = 0; e < 400; ++e) address.push_back(e * 3 * gap_stretch);
+    refused("given-own", brought(std::vector<std::uint32_t>(400, 8), address), "at most 17179869184");
 }
 
 TEST(Layouts, TheTopLevelsReadNothing) {

@@ -122,6 +122,28 @@ TEST(TraceFolder, AColumnThatWasLeftOutIsRefusedWithTheReason) {
     EXPECT_NE(message.find("nobody asked"), std::string::npos) << message;
 }
 
+TEST(TraceFolder, WithoutSearchesForPhotonsThereNeedBeNone) {
+    const Scratch scratch;
+    const auto write = [&](const char* name, std::uint32_t k, std::uint64_t photons) {
+        TraceWriter writer(scratch / name, false);
+        writer.column("query_position").append(std::span<const Vec3>());
+        writer.column("query_pixel").append(std::span<const std::uint32_t>());
+        writer.column("query_walk_bytes").append(std::span<const std::uint32_t>());
+        writer.column("walk").append(std::span<const std::uint8_t>());
+        TraceInfo info;
+        info.image_width = info.image_height = 1;
+        info.k = k;
+        info.photons = photons;
+        writer.finish(info);
+        return scratch / name;
+    };
+    EXPECT_EQ(TraceReader(write("none", 0, 0)).info().k, 0u);
+    EXPECT_NE(refusal(write("searched", 1, 0)).find("found no photon, expected every required column"),
+              std::string::npos);
+    EXPECT_NE(refusal(write("counted", 0, 3)).find("photons: found 3, expected 0 as the rows of photon"),
+              std::string::npos);
+}
+
 TEST(TraceFolder, InconsistentJsonIsRefusedByField) {
     const auto refused = [](const char* from, const char* to, const std::string& words) {
         const Scratch scratch;

@@ -52,6 +52,29 @@ TEST(Npy, ARowCountOfZeroIsAColumn) {
     EXPECT_EQ(MappedColumn(scratch / "a.npy", column_type<std::uint32_t>()).size(), 0u);
 }
 
+TEST(Npy, AColumnMayBeOfOneTypeOrAnother) {
+    const Scratch scratch;
+    const ColumnType &four = column_type<std::uint32_t>(), &eight = column_type<std::uint64_t>();
+    write_column<std::uint32_t>(scratch / "four.npy", std::vector<std::uint32_t>{5, 6, 7});
+    write_column<std::uint64_t>(scratch / "eight.npy", std::vector<std::uint64_t>{8, 1ull << 40});
+    write_column<float>(scratch / "real.npy", std::vector<float>{1});
+    const MappedColumn narrow(scratch / "four.npy", four, eight), wide(scratch / "eight.npy", four, eight);
+    EXPECT_EQ(narrow.row_bytes(), 4u);
+    EXPECT_EQ(narrow.rows<std::uint32_t>()[2], 7u);
+    EXPECT_EQ(wide.row_bytes(), 8u);
+    EXPECT_EQ(wide.rows<std::uint64_t>()[1], 1ull << 40);
+    try {
+        const MappedColumn column(scratch / "real.npy", four, eight);
+        ADD_FAILURE() << "taken";
+    } catch (const DataError& error) {
+        EXPECT_NE(std::string(error.what())
+                      .find("found type '<f4', expected '<u4' or '<u8' (uint32 or uint64, "
+                            "little-endian)"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
 TEST(Npy, HeadersOfOtherWritersAreRead) {
     // As numpy.save writes three uint32: 128-byte header, no blank before ')'.
     const Scratch scratch;
