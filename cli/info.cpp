@@ -19,6 +19,13 @@ namespace {
 
 constexpr std::size_t most_shown_json = 4000;  // a capture's has some hundred bytes
 
+std::string searched(const trace::TraceReader& trace) {
+    const trace::TraceInfo& info = trace.info();
+    if (trace.has("photon")) return fmt::format("{} photons, k = {}", info.photons, info.k);
+    const auto elements = trace.digests().find("element_region");
+    return fmt::format("{} elements", elements == trace.digests().end() ? 0 : elements->second.rows);
+}
+
 void print_trace(const std::filesystem::path& folder, bool verify, const Console& console) {
     trace::TraceReader trace(folder);
     replay::Verified verified;
@@ -33,10 +40,10 @@ void print_trace(const std::filesystem::path& folder, bool verify, const Console
     const double queries = static_cast<double>(std::max<std::uint64_t>(info.queries, 1));
     console.print(
         "trace      {}\nscene      {}{}\nmap        {}\nimage      {} x {} pixels\nseed       {}\nstructure  "
-        "{}, {} photons, k = {}\n",
+        "{}, {}\n",
         trace::shown(folder.string(), trace::most_shown_path), trace::shown(info.scene),
         info.frame ? fmt::format(", frame {}", *info.frame) : "", info.map, info.image_width,
-        info.image_height, info.seed, info.structure, info.photons, info.k);
+        info.image_height, info.seed, info.structure, searched(trace));
     console.print("queries    {}: {:.1f} photons found, {:.1f} nodes visited, {:.1f} bytes of walk each\n",
                   info.queries, static_cast<double>(info.found_photons) / queries,
                   static_cast<double>(info.visited_nodes) / queries,
@@ -54,9 +61,11 @@ void print_trace(const std::filesystem::path& folder, bool verify, const Console
     for (const trace::LeftOut& part : info.left_out)
         console.print("left out   {}: {}\n", trace::shown(part.what), trace::shown(part.why, 200));
     if (!verify) return;
-    console.print("verified   checksums, the order of the tree, pixels, directions, rays, walks{}\n",
-                  verified.searched ? "; each query was searched again and walks the same way"
-                                    : "; not searched again: trace.json does not say the radius");
+    console.print("verified   checksums, {}, pixels, directions, rays, walks{}\n",
+                  trace.has("photon") ? "the order of the tree" : "elements",
+                  verified.searched     ? "; each query was searched again and walks the same way"
+                  : trace.has("photon") ? "; not searched again: trace.json does not say the radius"
+                                        : "; not searched again: the walks were brought");
     if (verified.queries_nowhere > 0)
         console.print("           {} queries are at no finite place and find nothing\n",
                       verified.queries_nowhere);

@@ -1,5 +1,5 @@
-// regather walk -- makes a trace of somebody else's photons and queries, or of a trace's in another
-// structure.
+// regather walk -- makes a trace of somebody else's photons and queries, of what another program has walked,
+// or of a trace's queries in another structure.
 #include <fmt/format.h>
 
 #include <memory>
@@ -10,6 +10,7 @@
 #include "cli/progress.h"
 #include "experiment/structure_job.h"
 #include "experiment/trace_job.h"
+#include "experiment/visits_job.h"
 #include "trace/error.h"
 
 namespace regather::cli {
@@ -19,7 +20,17 @@ struct Options {
     experiment::TraceJob job;
     std::optional<std::uint32_t> k, width;
     std::optional<double> radius;
+    std::string structure;
+    bool allow_overlaps = false;
 };
+
+void refuse_overlaps(const Options& options) {
+    if (options.allow_overlaps)
+        throw trace::UsageError(
+            fmt::format("--allow-overlaps: found {} without visit_element.npy, expected "
+                        "visits that are brought",
+                        options.job.columns.string()));
+}
 
 /// The folder is a finished trace.
 experiment::StructureJob again(const Options& options) {
@@ -28,14 +39,30 @@ experiment::StructureJob again(const Options& options) {
             fmt::format("{}: found a finished trace, whose k, radius and width are its own, expected no --k, "
                         "--radius or --width",
                         options.job.columns.string()));
+    refuse_overlaps(options);
     return {.trace = options.job.columns,
             .folder = options.job.folder,
-            .structure = options.job.structure,
+            .structure = options.structure.empty() ? options.job.structure : options.structure,
+            .force = options.job.force};
+}
+
+experiment::VisitsJob of_visits(const Options& options) {
+    if (options.k || options.radius || !options.structure.empty())
+        throw trace::UsageError(
+            fmt::format("{}: found visit_element.npy, the walks of a search that is done, expected no --k, "
+                        "--radius or --structure",
+                        options.job.columns.string()));
+    return {.columns = options.job.columns,
+            .folder = options.job.folder,
+            .width = options.width.value_or(0),
+            .allow_overlaps = options.allow_overlaps,
             .force = options.job.force};
 }
 
 experiment::TraceJob of_columns(const Options& options) {
+    refuse_overlaps(options);
     experiment::TraceJob job = options.job;
+    if (!options.structure.empty()) job.structure = options.structure;
     if (options.k) job.k = *options.k;
     if (options.width) job.width = *options.width;
     if (options.radius) job.radius = *options.radius;
@@ -47,9 +74,12 @@ void run(const Options& options, const Console& console) {
     {
         Progress progress(console);
         std::error_code error;
-        report = std::filesystem::exists(options.job.columns / "trace.json", error)
-                     ? experiment::run(again(options), progress.listener())
-                     : experiment::run(of_columns(options), progress.listener());
+        if (std::filesystem::exists(options.job.columns / "trace.json", error))
+            report = experiment::run(again(options), progress.listener());
+        else if (experiment::brings_visits(options.job.columns))
+            report = experiment::run(of_visits(options), progress.listener());
+        else
+            report = experiment::run(of_columns(options), progress.listener());
     }
     console.print("{}", report);
 }
@@ -60,17 +90,23 @@ void add_walk(Command& command) {
     auto options = std::make_shared<Options>();
     experiment::TraceJob& job = options->job;
     command
-        .argument("folder", job.columns,
-                  "a finished trace; or a folder with photon_position.npy and query_position.npy (float32, n "
-                  "x 3) and, if you have them, "
-                  "query_pixel.npy (uint32), query_direction.npy, query_weight.npy (float32, n x 3)")
+        .argument(
+            "folder", job.columns,
+            "a finished trace; or a folder with photon_position.npy and query_position.npy (float32, n "
+            "x 3) and, if you have them, "
+            "query_pixel.npy (uint32), query_direction.npy, query_weight.npy (float32, n x 3); or, in place "
+            "of "
+            "photons, visit_element.npy, query_visits.npy and element_bytes.npy (docs/bringing_walks.md)")
         .required();
     command.option("-o,--output", job.folder, "the trace's folder").required();
-    command.option("--structure", job.structure, "what the photons are searched in, see regather structures");
+    command.option("--structure", options->structure,
+                   "what the photons are searched in, see regather structures; left-balanced-kd");
     command.option("--k", options->k, {1, (1u << 31) - 1}, "photons of a search; 100");
     command.option("--radius", options->radius, {.least = 0, .infinite = true},
                    "maximum radius [units of the positions]; 0 or inf: unlimited");
     command.option("--width", options->width, {1}, "image width that query_pixel counts with [pixels]");
+    command.flag("--allow-overlaps", options->allow_overlaps,
+                 "elements of brought visits may share bytes at their addresses");
     command.flag("--force", job.force, "overwrite a finished trace");
     command.footer(
         "Examples:\n"

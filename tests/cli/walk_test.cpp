@@ -240,6 +240,7 @@ TEST(WalkAgain, WhatDoesNotFitIsRefused) {
                    {"structure visits", "expected columns of visits"});
     expect_refused(bad_usage, {"walk", from, "--structure", "grid:cell=0", "-o", to},
                    {"cell is 0, expected 1 to 64"});
+    expect_refused(bad_usage, {"walk", from, "--allow-overlaps", "-o", to}, {"without visit_element.npy"});
     expect_refused(bad_usage, {"walk", from, "--structure", "median-kd", "--k", "4", "-o", to},
                    {"expected no --k"});
     expect_refused(bad_usage, {"walk", from, "--structure", "median-kd", "-o", from, "--force"},
