@@ -69,6 +69,25 @@ TEST(CellPlanes, EachPointLiesInItsCellAndNoNearerThanIt) {
     }));
 }
 
+TEST(CellPlanes, TheCellsAroundAPointAreThoseDrawnByHand) {
+    // Ten cells of 1. Cell 9 begins 1.75 from 7.25, cell 5 ends 1.25 from it.
+    const CellPlanes planes(box_of({0, 0, 0}, {10, 0, 0}), 10);
+    const auto met = [&](float x, float bound) {
+        std::vector<std::uint32_t> cells;
+        planes.for_each_near(
+            {x, 0, 0}, [&] { return bound; }, [&](const CellPlace& cell) { cells.push_back(cell[0]); }, 100,
+            [](std::uint32_t) {});
+        return cells;
+    };
+    EXPECT_THAT(met(7.25f, 1.75f * 1.75f), ElementsAre(7, 6, 8, 5, 9));
+    EXPECT_THAT(met(7.25f, 1.74f * 1.74f), ElementsAre(7, 6, 8, 5));
+    EXPECT_THAT(met(7.25f, 0.25f * 0.25f), ElementsAre(7, 6));
+    EXPECT_THAT(met(7.75f, 0.25f * 0.25f), ElementsAre(7, 8));
+    EXPECT_THAT(met(12, 4), ElementsAre(9));
+    EXPECT_THAT(met(12, 9), ElementsAre(9, 8));
+    EXPECT_THAT(met(12, 1), ElementsAre());
+}
+
 TEST(CellPlanes, EveryCellWithinTheBoundIsMetOnceShellByShell) {
     ASSERT_TRUE(rc::check([] {
         const auto side = [] { return static_cast<float>(*rc::gen::inRange(0, 6)); };
