@@ -149,7 +149,9 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         result.nonfinite += pass.tally.nonfinite;
         result.tree_seconds += clock.lap();
         if (!writer) return;
-        map.columns = std::make_unique<TraceColumns>(scene, config.columns, needs, *writer);
+        const bool gathered =
+            writer == writers.global && config.pixels.visualisation == Visualisation::final_gather;
+        map.columns = std::make_unique<TraceColumns>(scene, config.columns, needs, *writer, gathered);
         map.columns->write_photons(map.heap);
     };
     Map global(config.gather);

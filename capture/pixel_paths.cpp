@@ -288,15 +288,13 @@ void PixelPaths::add_gather_rays(const Shaded& at, std::size_t number) {
             continue;
         }
         if (dot(direction, at.side) <= 0 || weight == Vec3{}) continue;
-        follow_gather(at, direction, weight, density, sampler);
+        follow_gather(at, {direction, weight, density, strata.place(sequence_[ray])}, sampler);
     }
 }
 
-/// `density`: of all gather rays of a glossy point, per solid angle; 0 when its lights are left to the shadow
-/// rays.
-void PixelPaths::follow_gather(const Shaded& at, Vec3 direction, Vec3 weight, double density,
-                               Sampler& sampler) {
-    Vec3 origin = caster_.offset(at.position, at.side);
+void PixelPaths::follow_gather(const Shaded& at, const GatherRay& ray, Sampler& sampler) {
+    Vec3 origin = caster_.offset(at.position, at.side), direction = ray.direction, weight = ray.weight;
+    const double density = ray.density;
     for (std::uint32_t specular = 0;; ++specular) {
         count(specular == 0 ? RayKind::gather : RayKind::specular, origin, direction, unlimited);
         const std::optional<Hit> hit = caster_.closest(origin, direction);
@@ -323,6 +321,7 @@ void PixelPaths::follow_gather(const Shaded& at, Vec3 direction, Vec3 weight, do
             queries.direction.push_back(direction);
             queries.weight.push_back(weight);
             queries.pixel.push_back(pixel_);
+            queries.stratum.push_back(ray.stratum);
             queries.triangle.push_back(hit->triangle);
             queries.normal.push_back(met.normal);
             queries.sample.push_back(sample_);

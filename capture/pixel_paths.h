@@ -31,6 +31,12 @@ private:
     struct Branch {
         Vec3 origin, direction, throughput;
     };
+    struct GatherRay {
+        Vec3 direction, weight;
+        double density;  // of all gather rays of a glossy point, per solid angle; 0 when its lights are
+                         // left to the shadow rays
+        std::uint32_t stratum;  // Strata::place()
+    };
 
     void count(RayKind kind, Vec3 origin, Vec3 direction, float extent);
     void add(Stage stage, Layer layer, Vec3 radiance);
@@ -49,7 +55,7 @@ private:
     void ask(Queries& queries, const Shaded& at, Layer layer);
     void share_gather_rays(std::uint32_t rays);
     void add_gather_rays(const Shaded& at, std::size_t number);
-    void follow_gather(const Shaded& at, Vec3 direction, Vec3 weight, double density, Sampler& sampler);
+    void follow_gather(const Shaded& at, const GatherRay& ray, Sampler& sampler);
     double light_density(std::uint32_t light) const;
 
     const Scene& scene_;

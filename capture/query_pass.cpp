@@ -23,6 +23,7 @@ void Queries::append(const Queries& other) {
     append_to(direction, other.direction);
     append_to(weight, other.weight);
     append_to(pixel, other.pixel);
+    append_to(stratum, other.stratum);
     append_to(triangle, other.triangle);
     append_to(normal, other.normal);
     append_to(sample, other.sample);
@@ -33,6 +34,7 @@ void Queries::clear() {
     direction.clear();
     weight.clear();
     pixel.clear();
+    stratum.clear();
     triangle.clear();
     normal.clear();
     sample.clear();

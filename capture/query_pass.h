@@ -41,6 +41,8 @@ inline constexpr std::array<const char*, 4> layer_names{"direct", "caustic", "in
 struct Queries {
     std::vector<Vec3> position, direction, weight;
     std::vector<std::uint32_t> pixel, triangle;
+    std::vector<std::uint32_t>
+        stratum;  ///< Strata::place() that the gather ray was drawn from; empty where no gather ray asks.
     std::vector<Vec3>
         normal;  ///< Shading normal on the side that the ray met; not stored in traces, as are the next two.
     std::vector<std::uint32_t> sample;  ///< Eye ray of the pixel.

@@ -27,6 +27,15 @@ struct Strata {
         return {row, place(cell % columns, sampler.uniform(), columns)};
     }
 
+    /// Where the middle of a cell lies: along the rows in the upper 16 bits, along the columns in the lower
+    /// ones, in 65536ths of the square's edge. So cells of grids of any size compare.
+    std::uint32_t place(std::uint32_t cell) const {
+        const auto middle = [](std::uint64_t i, std::uint64_t n) {
+            return static_cast<std::uint32_t>((2 * i + 1) * 32768 / n);
+        };
+        return middle(cell / columns, rows) << 16 | middle(cell % columns, columns);
+    }
+
     std::uint32_t rows = 1, columns = 1;
 };
 

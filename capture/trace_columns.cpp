@@ -66,10 +66,11 @@ private:
 };
 
 TraceColumns::TraceColumns(const Scene& scene, const Columns& columns, const scenes::Needs& needs,
-                           trace::TraceWriter& writer)
+                           trace::TraceWriter& writer, bool gathered)
     : columns_(columns),
       needs_(needs),
       writer_(writer),
+      gathered_(gathered),
       labels_(std::make_unique<LeafLabels>(scene, columns)) {}
 
 TraceColumns::~TraceColumns() = default;
@@ -90,6 +91,7 @@ void TraceColumns::write_queries(const Queries& queries, const Gathered& gathere
     if (columns_.direction) append(writer_, "query_direction", queries.direction);
     if (columns_.leaf_kd) append(writer_, "query_leaf_kd", labels_->kd(queries));
     if (columns_.leaf_bvh) append(writer_, "query_leaf_bvh", labels_->bvh(queries));
+    if (has_strata()) append(writer_, "query_stratum", queries.stratum);
     append(writer_, "query_walk_bytes", gathered.walk_bytes);
     append(writer_, "walk", gathered.walks);
 }
@@ -118,6 +120,10 @@ std::vector<trace::LeftOut> TraceColumns::left_out() const {
     leave_out("query_direction", columns_.direction);
     leave_out("query_leaf_kd", columns_.leaf_kd);
     leave_out("query_leaf_bvh", columns_.leaf_bvh);
+    if (gathered_)
+        leave_out("query_stratum", columns_.stratum);
+    else
+        parts.push_back({"query_stratum", "no gather rays ask these queries"});
     for (std::size_t k = 0; k < ray_kind_names.size(); ++k) {
         const auto kind = static_cast<RayKind>(k);
         if (has_rays(kind)) continue;

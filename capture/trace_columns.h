@@ -15,15 +15,16 @@ namespace regather::capture {
 
 /// Which optional columns are stored.
 struct Columns {
-    bool rays = true, direction = true, leaf_kd = true, leaf_bvh = true;
+    bool rays = true, direction = true, leaf_kd = true, leaf_bvh = true, stratum = true;
 };
 // Columns that the scene has no need of (scenes/needs.h) are left out in any case.
 
 class TraceColumns {
 public:
-    /// Scene, needs and writer outlive the object. Rays belong to the global map's trace.
+    /// Scene, needs and writer outlive the object. Rays belong to the global map's trace. `gathered`: whether
+    /// gather rays ask the queries; what the eye asks for has no stratum.
     TraceColumns(const Scene& scene, const Columns& columns, const scenes::Needs& needs,
-                 trace::TraceWriter& writer);
+                 trace::TraceWriter& writer, bool gathered);
     ~TraceColumns();
     TraceColumns(const TraceColumns&) = delete;
     TraceColumns& operator=(const TraceColumns&) = delete;
@@ -40,10 +41,12 @@ public:
 private:
     class LeafLabels;
     bool has_rays(RayKind kind) const;
+    bool has_strata() const { return columns_.stratum && gathered_; }
 
     Columns columns_;
     const scenes::Needs& needs_;
     trace::TraceWriter& writer_;
+    bool gathered_;
     std::unique_ptr<LeafLabels> labels_;
 };
 

@@ -29,14 +29,15 @@ constexpr Style known[] = {
     {"direction-binned", "Direction bins", "#e69f00", 5},
     {"direction-binned+hashed", "Direction bins + hashed", "#d55e00", 13},
     {"hashed", "Hashed", "#cc79a7", 15},
+    {"strata", "Strata", "#44aa99", 12},
+    {"strata+hashed", "Strata + hashed", "#332288", 14},
     {"swizzle", "Swizzle", "#56b4e9", 11, tiles},
     {"morton", "Morton", "#009e73", 9, tiles},
     {"hilbert", "Hilbert", "#0072b2", 7, tiles},
     {"kd-leaf", "kd-tree leaf", "#882255", 4, tiles},
     {"bvh-leaf", "BVH leaf", "#b0a000", 6, tiles},
 };
-constexpr std::string_view spare_colours[] = {"#332288", "#44aa99", "#aa4499",
-                                              "#661100", "#6699cc", "#117733"};
+constexpr std::string_view spare_colours[] = {"#aa4499", "#661100", "#6699cc", "#117733"};
 
 /// What, besides ordering, tile and bins, tells two curves apart.
 constexpr std::size_t trait_count = 7;
@@ -156,14 +157,15 @@ Curve look_of(const Group& group, const std::vector<Curve>& before, std::span<co
     return curve;
 }
 
-/// "Direction bins + hashed" -> "Direction bins 16×16 + hashed"; where a label does not speak of bins, at its
-/// end.
+/// "Direction bins + hashed" -> "Direction bins 16×16 + hashed", "Strata" -> "Strata 10×10"; where a label
+/// speaks of neither, at its end.
 void name_bins(std::string& label, std::uint64_t bins) {
-    const auto word = label.find("bins");
-    if (word == label.npos)
-        label += fmt::format(", {0}×{0} bins", bins);
-    else
-        label.insert(word + 4, fmt::format(" {0}×{0}", bins));
+    for (const std::string_view word : {"bins", "Strata"})
+        if (const auto at = label.find(word); at != label.npos) {
+            label.insert(at + word.size(), fmt::format(" {0}×{0}", bins));
+            return;
+        }
+    label += fmt::format(", {0}×{0} bins", bins);
 }
 
 }  // namespace

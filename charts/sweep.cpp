@@ -28,7 +28,7 @@ Across across(Along along) {
         case Along::tile:
             return {"tile edge [pixels]", plain_number};
         case Along::bins:
-            return {"direction bins over the sphere", square};
+            return {"direction bins over the sphere, or strata", square};
         case Along::cache:
             break;
     }

@@ -78,7 +78,7 @@ void add_detail(Command& command) {
     command.argument("trace", options->trace, "the folder of a finished trace").required();
     command
         .list("--order,--reorderer", options->orders,
-              "orderings as NAME:parameter=value,...; or the path of a shared library")
+              "orderings as NAME:parameter=value,...; file:KEYS.npy; or the path of a shared library")
         .required();
     command.list("--cache", options->caches, "caches as SIZE:LINE:WAYS; WAYS may be full");
     command.option(

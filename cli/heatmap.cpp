@@ -58,7 +58,7 @@ void add_heatmap(Command& command) {
     auto options = std::make_shared<Options>();
     command.argument("trace", options->trace, "the folder of a finished trace").required();
     command.list("--order,--reorderer", options->orders,
-                 "orderings as NAME:parameter=value,...; or the path of a shared library");
+                 "orderings as NAME:parameter=value,...; file:KEYS.npy; or the path of a shared library");
     command.option("--cache", options->cache, "a cache as SIZE:LINE:WAYS; WAYS may be full");
     command.option("-o,--output", options->folder, "folder for traffic.exr and traffic.png").required();
     command.flag("--force", options->force, "overwrite the files");

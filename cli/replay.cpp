@@ -72,7 +72,9 @@ void add_replay(Command& command) {
         known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
     command
         .list("--order,--reorderer", options->orders,
-              fmt::format("orderings as NAME:parameter=value,...; or the path of a shared library. Known: {}",
+              fmt::format("orderings as NAME:parameter=value,...; file:KEYS.npy; or the path of a shared "
+                          "library. Known: "
+                          "{}",
                           known))
         .required();
     command.list("--cache", options->caches,

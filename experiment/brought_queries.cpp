@@ -16,8 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 using trace::Vec3;
 
-constexpr std::array<std::string_view, 6> known_columns{"query_position",  "query_pixel",   "query_weight",
-                                                        "query_direction", "query_leaf_kd", "query_leaf_bvh"};
+constexpr std::array<std::string_view, 7> known_columns{"query_position",  "query_pixel",   "query_weight",
+                                                        "query_direction", "query_leaf_kd", "query_leaf_bvh",
+                                                        "query_stratum"};
 
 fs::path file_of(const fs::path& folder, std::string_view name) {
     return folder / fmt::format("{}.npy", name);
@@ -62,7 +63,8 @@ BroughtQueries::BroughtQueries(const fs::path& columns)
       weight_(columns, "query_weight", positions_.size(), "query_position"),
       direction_(columns, "query_direction", positions_.size(), "query_position"),
       leaf_kd_(columns, "query_leaf_kd", positions_.size(), "query_position"),
-      leaf_bvh_(columns, "query_leaf_bvh", positions_.size(), "query_position") {
+      leaf_bvh_(columns, "query_leaf_bvh", positions_.size(), "query_position"),
+      stratum_(columns, "query_stratum", positions_.size(), "query_position") {
     const std::uint64_t queries = positions_.size();
     if (queries >= std::numeric_limits<std::uint32_t>::max())
         throw trace::DataError(fmt::format("{}: found {} rows, expected fewer than 2^32 - 1",
@@ -90,6 +92,7 @@ void BroughtQueries::store(trace::TraceWriter& writer, trace::TraceInfo& info, s
     copy(direction_);
     copy(leaf_kd_);
     copy(leaf_bvh_);
+    copy(stratum_);
     if (pixel_.exists()) {
         pixel_.store(writer);
     } else {

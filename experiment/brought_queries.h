@@ -51,7 +51,7 @@ private:
     trace::MappedColumn positions_;
     BroughtColumn<std::uint32_t> pixel_;
     BroughtColumn<trace::Vec3> weight_, direction_;
-    BroughtColumn<std::uint32_t> leaf_kd_, leaf_bvh_;
+    BroughtColumn<std::uint32_t> leaf_kd_, leaf_bvh_, stratum_;
     std::uint32_t last_pixel_ = 0;
 };
 

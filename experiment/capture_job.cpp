@@ -17,10 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool has_columns(const trace::TraceReader& trace, const capture::Columns& columns) {
+bool has_columns(const trace::TraceReader& trace, const capture::CaptureConfig& config) {
+    const capture::Columns& columns = config.columns;
+    const bool gathered = config.pixels.visualisation == capture::Visualisation::final_gather;
     return (!columns.direction || trace.has("query_direction")) &&
            (!columns.leaf_kd || trace.has("query_leaf_kd")) &&
            (!columns.leaf_bvh || trace.has("query_leaf_bvh")) &&
+           (!columns.stratum || !gathered || trace.has("query_stratum")) &&
            (!columns.rays || trace.has("ray_eye_origin"));
 }
 
@@ -47,7 +50,7 @@ std::optional<std::string> kept(const fs::path& folder, const Files& files, cons
                                 const capture::CaptureConfig& config) {
     if (!fs::exists(files.trace / "trace.json")) return std::nullopt;
     const trace::TraceReader trace(files.trace);
-    if (trace.info().parameters != capture::parameters(scene, config) || !has_columns(trace, config.columns))
+    if (trace.info().parameters != capture::parameters(scene, config) || !has_columns(trace, config))
         throw trace::UsageError(fmt::format(
             "{}: holds a trace with other parameters or columns than asked for, or of another renderer; "
             "give another folder, or --force to capture again",
@@ -126,6 +129,7 @@ CaptureResult run(const CaptureJob& job, const ProgressListener& progress) {
         config.columns.direction = job.reads->direction || job.reads->captured;
         config.columns.leaf_kd = job.reads->leaf_kd || job.reads->captured;
         config.columns.leaf_bvh = job.reads->leaf_bvh || job.reads->captured;
+        config.columns.stratum = job.reads->stratum;
     }
     CaptureResult result;
     if (job.options.frames.empty()) {

@@ -58,10 +58,11 @@ capture::CaptureConfig CaptureOptions::config() const {
     tone_curve();
     config.columns.rays = rays;
     const std::shared_ptr<reorder::Ordering> ordering = reorder::make_ordering(gather_order);
-    if (ordering->reads().leaf_kd || ordering->reads().leaf_bvh)
-        throw trace::UsageError(
-            fmt::format("gather_order: found {}, expected an ordering that needs no leaf labels",
-                        trace::in_quotes(gather_order)));
+    const reorder::Reads reads = ordering->reads();
+    if (reads.leaf_kd || reads.leaf_bvh || reads.stratum || reads.rows)
+        throw trace::UsageError(fmt::format(
+            "gather_order: found {}, expected an ordering that needs no leaf labels, strata or file",
+            trace::in_quotes(gather_order)));
     config.order = [ordering, w = width, h = height](const capture::Queries& queries) {
         const reorder::Workload work{.position = queries.position,
                                      .direction = queries.direction,

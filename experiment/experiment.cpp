@@ -152,7 +152,8 @@ Experiment load_experiment(const std::filesystem::path& path) {
             entry.fail(entry.found(), "the name of an ordering, or an object");
         const std::string name = bare ? entry.text() : entry["ordering"].text("the name of an ordering");
         for (const std::string& spec : bare ? std::vector<std::string>{name} : specs(entry, name)) {
-            reorder::ParsedOrdering parsed = entry.checked([&] { return reorder::parse_ordering(spec); });
+            reorder::ParsedOrdering parsed =
+                entry.checked([&] { return reorder::parse_ordering(spec, path.parent_path()); });
             std::string digest = library_digest(*parsed.ordering);
             experiment.trials.push_back({std::move(parsed),
                                          !bare && entry.has("caches") ? listed_caches(entry) : caches,

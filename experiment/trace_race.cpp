@@ -21,6 +21,9 @@ reorder::Workload raced(trace::TraceReader& trace, const reorder::Reads& reads, 
     if (wanted > all)
         throw trace::UsageError(
             fmt::format("--queries: found {}, expected at most the trace's {}", wanted, all));
+    if (wanted < all && reads.rows)
+        throw trace::UsageError(fmt::format(
+            "--queries: found {}, expected all {} of the trace where a file orders them", wanted, all));
     if (all == 0)
         throw trace::DataError(fmt::format("{}: found no queries, expected at least 1",
                                            (trace.folder() / "query_position.npy").string()));

@@ -7,10 +7,12 @@
 #include "reorder/curve_sorted.h"
 #include "reorder/direction_binned.h"
 #include "reorder/hashed.h"
+#include "reorder/key_file.h"
 #include "reorder/leaf_sorted.h"
 #include "reorder/naive.h"
 #include "reorder/random.h"
 #include "reorder/shared_library.h"
+#include "reorder/strata.h"
 #include "reorder/tiled.h"
 #include "trace/error.h"
 #include "trace/range.h"
@@ -32,15 +34,24 @@ constexpr Parameter buckets{"buckets", "512", "number of buckets; buckets x capa
 constexpr Parameter capacity{"capacity", "64", "queries a bucket holds"};
 constexpr Parameter cells{"cells", "16", "of the hash grid along the longest axis, 1 to 2097152"};
 
+constexpr Parameter strata{"strata", "10", "n x n strata of a pixel's hemisphere: n, 1 to 1024"};
+constexpr Parameter strata_order{"order", "rows", "in which they are made: rows | columns | morton"};
+constexpr Parameter frame{"frame", "local", "local: of the surface seen | world: bins of directions"};
+
 constexpr Parameter random_parameters[] = {{"seed", "1", "a whole number"}};
 constexpr Parameter tiled_parameters[] = {
     tile, {"rows", "left-to-right", "of a tile: left-to-right | alternating"}};
 constexpr Parameter direction_parameters[] = {tile, bins, passes, state};
+constexpr Parameter strata_parameters[] = {tile, strata, strata_order, frame, state};
 constexpr Parameter curve_parameters[] = {optional_tile, curve_bits};
 constexpr Parameter swizzle_parameters[] = {optional_tile, {"bits", "4", "top bits taken, an axis, 1 to 8"}};
 constexpr Parameter hashed_parameters[] = {buckets, capacity, cells};
 constexpr Parameter direction_hashed_parameters[] = {tile, bins, passes, state, buckets, capacity, cells};
+constexpr Parameter strata_hashed_parameters[] = {tile,  strata,  strata_order, frame,
+                                                  state, buckets, capacity,     cells};
 constexpr Parameter leaf_parameters[] = {optional_tile};
+constexpr Parameter file_parameters[] = {{"as", "keys", "what the file holds: keys | permutation"},
+                                         {"xxh3", "", "checksum of its rows, 16 hexadecimal digits"}};
 
 using Made = std::unique_ptr<Ordering>;
 
@@ -81,12 +92,23 @@ Made make_direction_binned(Parameters& given) {
     return std::make_unique<DirectionBinned>(direction_config(given));
 }
 
+Made make_strata(Parameters& given) {
+    constexpr StrataOrder orders[] = {StrataOrder::rows, StrataOrder::columns, StrataOrder::morton};
+    return std::make_unique<Strata>(StrataConfig{
+        .tile = given.count("tile"),
+        .strata = given.count("strata"),
+        .order = orders[given.choice("order", {"rows", "columns", "morton"})],
+        .frame = given.choice("frame", {"local", "world"}) == 0 ? StrataFrame::local : StrataFrame::world,
+        .state = given.choice("state", {"store", "recast"}) == 0 ? PixelState::store : PixelState::recast});
+}
+
 Made make_hashed(Parameters& given) {
     return std::make_unique<Hashed>(hashed_config(given));
 }
 
-Made make_direction_binned_hashed(Parameters& given) {
-    return std::make_unique<DirectionBinnedHashed>(direction_config(given), hashed_config(given));
+template <Made (*make_making)(Parameters&)>
+Made make_hashed_behind(Parameters& given) {
+    return std::make_unique<HashedBehind>(make_making(given), hashed_config(given));
 }
 
 template <Curve curve>
@@ -108,12 +130,15 @@ constexpr Entry entries[] = {
     {"tiled", "square tiles, each in row order", tiled_parameters, make_tiled},
     {"direction-binned", "several passes over a tile, each with gather rays of like direction",
      direction_parameters, make_direction_binned},
+    {"strata", "several passes over a tile, each with one stratum of every pixel's hemisphere",
+     strata_parameters, make_strata},
     {"hilbert", "sorted along a Hilbert curve", curve_parameters, make_curve<Curve::hilbert>},
     {"morton", "sorted along a Morton curve", curve_parameters, make_curve<Curve::morton>},
     {"swizzle", "sorted by a few interleaved top bits", swizzle_parameters, make_curve<Curve::swizzle>},
     {"hashed", "through bounded buckets by position, fullest first", hashed_parameters, make_hashed},
     {"direction-binned+hashed", "direction-binned, then hashed", direction_hashed_parameters,
-     make_direction_binned_hashed},
+     make_hashed_behind<make_direction_binned>},
+    {"strata+hashed", "strata, then hashed", strata_hashed_parameters, make_hashed_behind<make_strata>},
     {"kd-leaf", "sorted by the leaf of the kd-tree that the gather ray ended in", leaf_parameters,
      make_leaf<LeafColumn::kd>},
     {"bvh-leaf", "sorted by the leaf of the BVH that the gather ray ended in", leaf_parameters,
@@ -127,13 +152,36 @@ ParsedOrdering load_library(std::string_view path, std::string_view parameters) 
     return {std::move(spec), std::move(library)};
 }
 
+/// What follows ".npy," is parameters; a path may hold anything else.
+ParsedOrdering load_key_file(std::string_view text, const std::filesystem::path& folder) {
+    const std::size_t end = text.find(".npy,");
+    const std::string_view path = text.substr(0, end == std::string_view::npos ? end : end + 4);
+    if (path.empty()) throw trace::UsageError("file: found no path, expected file:KEYS.npy");
+    Parameters parameters("file", file_parameters, text.substr(std::min(path.size() + 1, text.size())));
+    const bool keys = parameters.choice("as", {"keys", "permutation"}) == 0;
+    const std::filesystem::path file = folder / path;
+    auto ordering = std::make_unique<KeyFile>(file, keys ? FileHolds::keys : FileHolds::permutation);
+    const std::string checksum = ordering->checksum();
+    if (const std::string_view wanted = parameters.written("xxh3"); !wanted.empty() && wanted != checksum)
+        throw trace::DataError(fmt::format("{}: found checksum {}, expected {} as xxh3 says",
+                                           trace::shown(file.string(), trace::most_shown_path), checksum,
+                                           trace::in_quotes(wanted)));
+    OrderingSpec spec;
+    spec.name = "file:" + trace::shown(file.filename().string());
+    spec.text = fmt::format("{},as={},xxh3={}", spec.name, parameters.written("as"), checksum);
+    return {std::move(spec), std::move(ordering)};
+}
+
 }  // namespace
 
 std::span<const Entry> catalogue() {
     return entries;
 }
 
-ParsedOrdering parse_ordering(std::string_view spec) {
+ParsedOrdering parse_ordering(std::string_view spec, const std::filesystem::path& folder) {
+    constexpr std::string_view of_file = "file:";
+    if (spec == "file" || spec.starts_with(of_file))
+        return load_key_file(spec.substr(std::min(of_file.size(), spec.size())), folder);
     // A library's directory may hold a colon; what follows ".so:" is its parameters.
     const std::size_t library = spec.find(".so:");
     const std::size_t colon =
@@ -161,6 +209,7 @@ ParsedOrdering parse_ordering(std::string_view spec) {
     parsed.spec.name = name;
     if (has("tile")) parsed.spec.tile = parameters.given_count("tile");
     if (has("bins")) parsed.spec.bins = parameters.given_count("bins");
+    if (has("strata")) parsed.spec.bins = parameters.given_count("strata");
     parsed.spec.text = parsed.spec.name;
     if (const std::string values = parameters.text(); !values.empty()) parsed.spec.text += ":" + values;
     return parsed;

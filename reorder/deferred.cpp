@@ -6,6 +6,16 @@
 namespace regather::reorder {
 namespace {
 
+/// ceil(log_256(bytes / onchip_bytes)), at least 1.
+std::uint64_t distribution_passes(std::uint64_t bytes, std::uint64_t onchip_bytes) {
+    std::uint64_t passes = 1;
+    const std::uint64_t chip = std::max(onchip_bytes, query_record_bytes);  // holds one record at least
+    for (std::uint64_t part = (bytes + 255) / 256; part > chip; part = (part + 255) / 256) ++passes;
+    return passes;
+}
+
+}  // namespace
+
 std::uint64_t queries_in_fullest_tile(const Workload& work, const Tiling& tiling) {
     if (tiling.tiles() == 1) return work.pixel.size();
     // By tile that occurs, as there may be 2^32; looked up once a run of queries in one tile.
@@ -18,16 +28,6 @@ std::uint64_t queries_in_fullest_tile(const Workload& work, const Tiling& tiling
     }
     return fullest;
 }
-
-/// ceil(log_256(bytes / onchip_bytes)), at least 1.
-std::uint64_t distribution_passes(std::uint64_t bytes, std::uint64_t onchip_bytes) {
-    std::uint64_t passes = 1;
-    const std::uint64_t chip = std::max(onchip_bytes, query_record_bytes);  // holds one record at least
-    for (std::uint64_t part = (bytes + 255) / 256; part > chip; part = (part + 255) / 256) ++passes;
-    return passes;
-}
-
-}  // namespace
 
 Cost deferred_cost(const Workload& work, const Tiling& tiling, const DeferredSort& sort,
                    std::uint64_t onchip_bytes) {

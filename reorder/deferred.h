@@ -11,6 +11,8 @@ struct DeferredSort {
     std::uint32_t key_bits = 0;  ///< Of the code alone: tiles are sorted by being made one after the other.
 };
 
+std::uint64_t queries_in_fullest_tile(const Workload& work, const Tiling& tiling);
+
 /// The queries of the fullest tile are buffered as records of query_record_bytes and sorted by a radix sort
 /// with 8-bit digits. Tiles that do not fit the chip are first distributed 256 ways through memory until the
 /// parts fit.

@@ -40,54 +40,33 @@ DirectionBinned::DirectionBinned(const DirectionBinnedConfig& config) : config_(
                          std::uint64_t{config_.bins} * config_.bins);
 }
 
-/// Counted over all tiles.
-std::uint64_t DirectionBinned::pass_of(const Workload& work, const Tiling& tiling, std::size_t query) const {
+TilePasses DirectionBinned::tile_passes() const {
+    return {.tile = config_.tile, .passes = config_.passes, .state = config_.state};
+}
+
+void DirectionBinned::assign_passes(const Workload& work, std::span<std::uint64_t> pass) const {
+    const Tiling tiling(work, config_.tile);
     const std::uint64_t bins = std::uint64_t{config_.bins} * config_.bins, passes = config_.passes;
-    return tiling.tile_of(work.pixel[query]) * passes +
-           direction_bin(work.direction[query], config_.bins) * passes / bins;
+    tbb::parallel_for(std::size_t{0}, pass.size(), [&](std::size_t i) {
+        pass[i] = tiling.tile_of(work.pixel[i]) * passes +
+                  direction_bin(work.direction[i], config_.bins) * passes / bins;
+    });
 }
 
 Cost DirectionBinned::assign_keys(const Workload& work, std::uint64_t onchip_bytes,
                                   std::span<std::uint64_t> keys) const {
-    const Tiling tiling(work, config_.tile);
-    const std::uint64_t passes = config_.passes;
-    tbb::parallel_for(std::size_t{0}, keys.size(),
-                      [&](std::size_t i) { keys[i] = pass_of(work, tiling, i); });
-
-    Cost cost;
-    cost.keys = keys.size() * passes;
+    assign_passes(work, keys);
+    Cost cost = cost_of(tile_passes(), work, onchip_bytes);
+    cost.keys = keys.size() * config_.passes;
     cost.key_ops = cost.keys * ops_per_test;
-    const std::uint64_t pixels = std::uint64_t{work.image_width} * work.image_height;
-    if (config_.state == PixelState::recast) {
-        cost.recast_rays = pixels * (passes - 1);
-    } else if (passes > 1) {
-        cost.buffered_bytes = tiling.pixels_in_tile() * pixel_state_bytes;
-        // Written by the first pass and read by each of the others.
-        if (cost.buffered_bytes > onchip_bytes) cost.reorder_bytes = pixels * pixel_state_bytes * passes;
-    }
     return cost;
 }
 
 BufferUse DirectionBinned::buffer_use(const Workload& work, std::uint64_t onchip_bytes,
                                       std::span<const std::uint32_t> permutation) const {
-    const Tiling tiling(work, config_.tile);
-    if (config_.state == PixelState::recast || config_.passes == 1) return {};
-    if (tiling.pixels_in_tile() * pixel_state_bytes <= onchip_bytes) return {};
-    PixelPasses state;
-    state.state_bytes = pixel_state_bytes;
-    state.image_width = work.image_width;
-    state.image_height = work.image_height;
-    state.tile = config_.tile;
-    state.passes = config_.passes;
-    state.pixel = work.pixel;
-    for (std::size_t r = 0; r < permutation.size(); ++r) {
-        const std::uint64_t pass = pass_of(work, tiling, permutation[r]);
-        if (state.runs.empty() || state.runs.back().pass != pass) state.runs.push_back({pass, r});
-        state.runs.back().end = r + 1;
-    }
-    BufferUse use;
-    use.state = std::move(state);
-    return use;
+    std::vector<std::uint64_t> pass(permutation.size());
+    assign_passes(work, pass);
+    return buffer_use_of(tile_passes(), work, onchip_bytes, permutation, pass);
 }
 
 }  // namespace regather::reorder

@@ -2,13 +2,9 @@
 // of directions. The paper, section 6.3.1, "Tiled direction-binning reordering".
 #pragma once
 #include "reorder/ordering.h"
+#include "reorder/tile_passes.h"
 
 namespace regather::reorder {
-
-class Tiling;
-
-/// What later passes need of a pixel's eye ray is kept from the first pass, or cast again.
-enum class PixelState : std::uint8_t { store, recast };
 
 struct DirectionBinnedConfig {
     std::uint32_t tile = 16;   ///< Edge [pixels].
@@ -36,7 +32,9 @@ public:
                          std::span<const std::uint32_t> permutation) const override;
 
 private:
-    std::uint64_t pass_of(const Workload& work, const Tiling& tiling, std::size_t query) const;
+    TilePasses tile_passes() const;
+    /// By query, counted over all tiles.
+    void assign_passes(const Workload& work, std::span<std::uint64_t> pass) const;
 
     DirectionBinnedConfig config_;
 };

@@ -193,9 +193,9 @@ BufferUse Hashed::buffer_use(const Workload& work, std::uint64_t onchip_bytes,
     return use;
 }
 
-Cost DirectionBinnedHashed::assign_keys(const Workload& work, std::uint64_t onchip_bytes,
-                                        std::span<std::uint64_t> keys) const {
-    const Cost making = making_.assign_keys(work, making_onchip(onchip_bytes), keys);
+Cost HashedBehind::assign_keys(const Workload& work, std::uint64_t onchip_bytes,
+                               std::span<std::uint64_t> keys) const {
+    const Cost making = making_->assign_keys(work, making_onchip(onchip_bytes), keys);
     const std::vector<std::uint32_t> incoming = sorted_permutation(keys);
     Cost sum = hashing_.assign_keys(work, onchip_bytes, incoming, keys);
     sum.keys += making.keys;
@@ -206,12 +206,12 @@ Cost DirectionBinnedHashed::assign_keys(const Workload& work, std::uint64_t onch
     return sum;
 }
 
-BufferUse DirectionBinnedHashed::buffer_use(const Workload& work, std::uint64_t onchip_bytes,
-                                            std::span<const std::uint32_t>) const {
+BufferUse HashedBehind::buffer_use(const Workload& work, std::uint64_t onchip_bytes,
+                                   std::span<const std::uint32_t>) const {
     std::vector<std::uint64_t> keys(work.position.size());
-    making_.assign_keys(work, making_onchip(onchip_bytes), keys);
+    making_->assign_keys(work, making_onchip(onchip_bytes), keys);
     std::vector<std::uint32_t> incoming = sorted_permutation(keys);
-    BufferUse use = making_.buffer_use(work, making_onchip(onchip_bytes), incoming);
+    BufferUse use = making_->buffer_use(work, making_onchip(onchip_bytes), incoming);
     if (use.state || hashing_.buffer_bytes() > onchip_bytes)
         use.buckets = hashing_.buckets(work, onchip_bytes, std::move(incoming));
     return use;

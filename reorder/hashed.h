@@ -2,7 +2,9 @@
 // section 6.3.2, "Hashed reordering" and "Tiled direction-binning Hashed reordering"; run as the machine that
 // it describes.
 #pragma once
-#include "reorder/direction_binned.h"
+#include <memory>
+#include <utility>
+
 #include "reorder/ordering.h"
 
 namespace regather::reorder {
@@ -40,12 +42,13 @@ private:
     HashedConfig config_;
 };
 
-/// Hashed, fed by DirectionBinned. Costs are summed; the buckets are placed on the chip first.
-class DirectionBinnedHashed final : public Ordering {
+/// Hashed, fed by an ordering that makes queries in passes over tiles. Costs are summed; the buckets are
+/// placed on the chip first.
+class HashedBehind final : public Ordering {
 public:
-    DirectionBinnedHashed(const DirectionBinnedConfig& making, const HashedConfig& hashing)
-        : making_(making), hashing_(hashing) {}
-    Reads reads() const override { return making_.reads(); }
+    HashedBehind(std::unique_ptr<const Ordering> making, const HashedConfig& hashing)
+        : making_(std::move(making)), hashing_(hashing) {}
+    Reads reads() const override { return making_->reads(); }
     Cost assign_keys(const Workload& work, std::uint64_t onchip_bytes,
                      std::span<std::uint64_t> keys) const override;
     BufferUse buffer_use(const Workload& work, std::uint64_t onchip_bytes,
@@ -58,7 +61,7 @@ private:
         return buckets <= onchip_bytes ? onchip_bytes - buckets : onchip_bytes;
     }
 
-    DirectionBinned making_;
+    std::unique_ptr<const Ordering> making_;
     Hashed hashing_;
 };
 

@@ -29,14 +29,17 @@ inline constexpr std::uint64_t pixel_state_bytes = 48;
 
 /// Which columns an ordering reads besides position and pixel.
 struct Reads {
-    bool direction = false, leaf_kd = false, leaf_bvh = false;
+    bool direction = false, leaf_kd = false, leaf_bvh = false, stratum = false;
     bool captured = false;  ///< Whichever were captured: what is missing is empty.
+    bool rows = false;      ///< Queries by their number in the capture: a part of them has no order.
 
     Reads& operator|=(const Reads& other) {
         direction |= other.direction;
         leaf_kd |= other.leaf_kd;
         leaf_bvh |= other.leaf_bvh;
+        stratum |= other.stratum;
         captured |= other.captured;
+        rows |= other.rows;
         return *this;
     }
 };
@@ -44,12 +47,14 @@ struct Reads {
 /// All that an ordering may look at: the queries in capture order (pixels in row order, samples in a pixel
 /// together). Columns that were not captured are empty.
 struct Workload {
-    std::span<const Vec3> position;                   ///< [scene units]; may hold NaN or infinity.
-    std::span<const Vec3> direction;                  ///< Of the gather ray that ended here, unit length.
-    std::span<const std::uint32_t> pixel;             ///< y * image_width + x
-    std::span<const std::uint32_t> leaf_kd;           ///< Leaf label: kd-tree over the triangles.
-    std::span<const std::uint32_t> leaf_bvh;          ///< Leaf label: BVH over the triangles.
-    Bounds3 bounds;                                   ///< Of all finite positions.
+    std::span<const Vec3> position;           ///< [scene units]; may hold NaN or infinity.
+    std::span<const Vec3> direction;          ///< Of the gather ray that ended here, unit length.
+    std::span<const std::uint32_t> pixel;     ///< y * image_width + x
+    std::span<const std::uint32_t> leaf_kd;   ///< Leaf label: kd-tree over the triangles.
+    std::span<const std::uint32_t> leaf_bvh;  ///< Leaf label: BVH over the triangles.
+    std::span<const std::uint32_t> stratum =
+        {};          ///< Drawn from: rows x 65536 + columns, in 65536ths of the unit square's edges.
+    Bounds3 bounds;  ///< Of all finite positions.
     std::uint32_t image_width = 1, image_height = 1;  ///< [pixels]
     std::filesystem::path folder = {};                ///< Of the columns' files, for messages.
 };

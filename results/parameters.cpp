@@ -26,7 +26,7 @@ std::vector<std::string_view> assignments(std::string_view spec) {
 std::string other_parameters(const Row& row) {
     std::string out;
     for (const std::string_view word : assignments(row.parameters)) {
-        if (word.starts_with("tile=") || word.starts_with("bins=")) continue;
+        if (word.starts_with("tile=") || word.starts_with("bins=") || word.starts_with("strata=")) continue;
         // A pass for each bin is what is meant when nothing is said.
         if (row.bins && word == fmt::format("passes={}", *row.bins * *row.bins)) continue;
         fmt::format_to(std::back_inserter(out), "{}{}", out.empty() ? "" : ", ", word);

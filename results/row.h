@@ -15,7 +15,7 @@ struct Row {
     Count frame;
     std::string ordering;    ///< "hilbert"; whole image when tile is empty.
     Count tile;              ///< Edge of a square tile [pixels].
-    Count bins;              ///< Direction bins along one axis of an n x n grid.
+    Count bins;              ///< Direction bins or strata along one axis of an n x n grid.
     std::string parameters;  ///< All parameters of the ordering as its spec, "hilbert:tile=16".
     std::string structure;   ///< "left-balanced-kd"
     std::string layout;      ///< "heap-20"

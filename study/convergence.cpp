@@ -70,7 +70,7 @@ capture::CaptureConfig capture_config(const Setting& setting, const ConvergenceC
     out.gather.k = setting.k;
     out.gather.radius = static_cast<float>(setting.radius);
     out.caustic.photons = setting.caustic_photons;
-    out.columns = {.rays = false, .direction = false, .leaf_kd = false, .leaf_bvh = false};
+    out.columns = {.rays = false, .direction = false, .leaf_kd = false, .leaf_bvh = false, .stratum = false};
     return out;
 }
 

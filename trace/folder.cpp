@@ -50,6 +50,9 @@ constexpr ColumnEntry table[] = {
      "leaf of a kd-tree over the triangles that the hit lies in", column_type<std::uint32_t>, false},
     {"query_leaf_bvh", "query", "leaf number, depth-first",
      "leaf of a BVH over the triangles that holds the triangle hit", column_type<std::uint32_t>, false},
+    {"query_stratum", "query", "65536ths of the unit square's edges",
+     "middle of the stratum that the gather ray was drawn from: rows x 65536 + columns",
+     column_type<std::uint32_t>, false},
     {"query_walk_bytes", "query", "bytes", "length of the query's walk", column_type<std::uint32_t>, true},
     {"walk", "walk", "bits", "the walks one after the other, each starting on a byte",
      column_type<std::uint8_t>, true},
@@ -290,7 +293,7 @@ const MappedColumn& TraceReader::open(std::string_view name, const ColumnType& t
     const fs::path path = column_path(folder_, name);
     const auto digest = digests_.find(std::string(name));
     if (digest == digests_.end()) {
-        std::string why = "it was not captured";
+        std::string why = "it was not captured: capture the scene again";
         for (const LeftOut& entry : info_.left_out)
             if (entry.what == name) why = entry.why;
         throw DataError(fmt::format("{}: found no such column ({}), expected {}",

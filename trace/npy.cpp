@@ -74,6 +74,31 @@ std::string without_blanks(std::string text) {
 }  // namespace
 
 template <>
+const ColumnType& column_type<std::int8_t>() {
+    static const ColumnType type{"'|i1'", "", 1, "int8"};
+    return type;
+}
+template <>
+const ColumnType& column_type<std::int16_t>() {
+    static const ColumnType type{"'<i2'", "", 2, "int16"};
+    return type;
+}
+template <>
+const ColumnType& column_type<std::int32_t>() {
+    static const ColumnType type{"'<i4'", "", 4, "int32"};
+    return type;
+}
+template <>
+const ColumnType& column_type<std::int64_t>() {
+    static const ColumnType type{"'<i8'", "", 8, "int64"};
+    return type;
+}
+template <>
+const ColumnType& column_type<std::uint16_t>() {
+    static const ColumnType type{"'<u2'", "", 2, "uint16"};
+    return type;
+}
+template <>
 const ColumnType& column_type<std::uint8_t>() {
     static const ColumnType type{"'|u1'", "", 1, "uint8"};
     return type;
@@ -163,9 +188,19 @@ ColumnDigest ColumnWriter::finish(OnDisk on_disk) {
 
 MappedColumn::MappedColumn(const std::filesystem::path& path, const ColumnType& one,
                            const ColumnType& other) {
-    const std::string readable =
-        one.readable == other.readable ? one.readable : fmt::format("{} or {}", one.readable, other.readable);
-    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const ColumnType* const both[] = {&one, &other};
+    const bool same = one.descr == other.descr;
+    const std::string readable = same ? one.readable : fmt::format("{} or {}", one.readable, other.readable);
+    std::size_t first = 0;
+    *this = MappedColumn(path, std::span(both).first(same ? 1 : 2), readable,
+                         same ? fmt::format("{} ({}, little-endian)", one.descr, readable)
+                              : fmt::format("{} or {} ({}, little-endian)", one.descr, other.descr, readable),
+                         first);
+}
+
+MappedColumn::MappedColumn(const std::filesystem::path& path, std::span<const ColumnType* const> types,
+                           std::string_view readable, std::string_view expected, std::size_t& which) {
+    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a pipe must not hold us up
     if (fd < 0) refuse(path, std::strerror(errno), fmt::format("a .npy column of {}", readable));
     struct stat info {};
     if (::fstat(fd, &info) != 0 || !S_ISREG(info.st_mode) || info.st_size < 10) {
@@ -192,28 +227,23 @@ MappedColumn::MappedColumn(const std::filesystem::path& path, const ColumnType& 
         const std::string_view header(bytes + prefix, text_bytes);
 
         const std::string descr = value_of(header, "descr");
-        const auto is_signed = [&](const ColumnType& type) {
-            return type.descr == column_type<std::uint64_t>().descr && descr == "'<i8'";
+        const auto place_of = [&](const std::string& found) {
+            std::size_t place = 0;
+            while (place < types.size() && without_blanks(types[place]->descr) != found) ++place;
+            return place;
         };
-        const auto fits = [&](const ColumnType& type) {
-            return descr == without_blanks(type.descr) || is_signed(type);
-        };
-        const ColumnType& type = fits(one) ? one : other;
-        const bool signed_64 = is_signed(type);
-        if (!fits(type)) {
-            const auto foreign = [&](const ColumnType& expected) {
-                std::string swapped = without_blanks(expected.descr);
-                for (char& c : swapped)
-                    if (c == '<') c = '>';
-                return descr == swapped;
-            };
-            refuse(path,
-                   foreign(one) || foreign(other) ? fmt::format("big-endian type {}", shown(descr))
-                                                  : fmt::format("type {}", shown(descr)),
-                   one.descr == other.descr
-                       ? fmt::format("{} ({}, little-endian)", one.descr, readable)
-                       : fmt::format("{} or {} ({}, little-endian)", one.descr, other.descr, readable));
+        which = place_of(descr);
+        const bool signed_64 = which == types.size() && descr == column_type<std::int64_t>().descr;
+        if (signed_64) which = place_of(column_type<std::uint64_t>().descr);
+        if (which == types.size()) {
+            std::string turned = descr;
+            for (char& c : turned)
+                if (c == '>') c = '<';
+            const bool foreign = turned != descr && place_of(turned) != types.size();
+            refuse(path, fmt::format("{}type {}", foreign ? "big-endian " : "", shown(descr)),
+                   std::string(expected));
         }
+        const ColumnType& type = *types[which];
         row_bytes_ = type.row_bytes;
         if (value_of(header, "fortran_order") != "False") refuse(path, "Fortran order", "C order");
         const std::string shape = value_of(header, "shape");
@@ -269,6 +299,16 @@ std::uint64_t MappedColumn::checksum() const {
     digest.add_bytes({static_cast<const std::byte*>(data_), rows_ * row_bytes_});
     return digest.value();
 }
+
+IntegerColumn::IntegerColumn(const std::filesystem::path& path)
+    : column_([&] {
+          const ColumnType* const types[] = {&column_type<std::int8_t>(),   &column_type<std::int16_t>(),
+                                             &column_type<std::int32_t>(),  &column_type<std::int64_t>(),
+                                             &column_type<std::uint8_t>(),  &column_type<std::uint16_t>(),
+                                             &column_type<std::uint32_t>(), &column_type<std::uint64_t>()};
+          return MappedColumn(path, types, "whole numbers",
+                              "whole numbers (int8 to int64 or uint8 to uint64, little-endian)", type_);
+      }()) {}
 
 void MappedColumn::expect_random_access() const {
     ::madvise(map_, map_bytes_, MADV_RANDOM);

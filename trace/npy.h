@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trace/error.h"
@@ -26,7 +27,7 @@ struct ColumnType {
 };
 
 template <class T>
-const ColumnType& column_type();  ///< For uint8, uint32, uint64, float, Vec3 and Photon.
+const ColumnType& column_type();  ///< For int8 to int64, uint8 to uint64, float, Vec3 and Photon.
 
 /// What was written: rows, and XXH3-64 of the rows' bytes (without the header).
 struct ColumnDigest {
@@ -86,12 +87,54 @@ public:
     void expect_random_access() const;
 
 private:
+    friend class IntegerColumn;
+    /// Of one of several types: `type` is its place among them. `readable` and `expected` say them in
+    /// messages.
+    MappedColumn(const std::filesystem::path& path, std::span<const ColumnType* const> types,
+                 std::string_view readable, std::string_view expected, std::size_t& type);
+
     void* map_ = nullptr;
     std::size_t map_bytes_ = 0;
     std::vector<std::uint64_t> copy_;
     const std::byte* data_ = nullptr;
     std::uint64_t rows_ = 0;
     std::size_t row_bytes_ = 0;
+};
+
+/// A column of whole numbers of any width, signed or not, as NumPy makes them. Throws as MappedColumn; floats
+/// and truth values are another type.
+class IntegerColumn {
+public:
+    explicit IntegerColumn(const std::filesystem::path& path);
+
+    std::uint64_t size() const { return column_.size(); }
+    std::uint64_t checksum() const { return column_.checksum(); }
+    /// use(rows), a span of int8, int16, int32, int64, uint8, uint16, uint32 or uint64.
+    template <class Use>
+    decltype(auto) visit(Use&& use) const {
+        switch (type_) {
+            case 0:
+                return use(column_.rows<std::int8_t>());
+            case 1:
+                return use(column_.rows<std::int16_t>());
+            case 2:
+                return use(column_.rows<std::int32_t>());
+            case 3:
+                return use(column_.rows<std::int64_t>());
+            case 4:
+                return use(column_.rows<std::uint8_t>());
+            case 5:
+                return use(column_.rows<std::uint16_t>());
+            case 6:
+                return use(column_.rows<std::uint32_t>());
+            default:
+                return use(column_.rows<std::uint64_t>());
+        }
+    }
+
+private:
+    std::size_t type_ = 0;
+    MappedColumn column_;
 };
 
 }  // namespace regather::trace

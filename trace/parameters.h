@@ -31,6 +31,8 @@ public:
     std::optional<std::uint32_t> given_count(std::string_view name) const;
     /// As count(); a parameter without value gets `fallback`.
     std::uint32_t count_or(std::string_view name, std::uint32_t fallback);
+    /// As it was written; empty when it has no value.
+    std::string_view written(std::string_view name) const { return value(name); }
     /// Which of `words` the value is.
     std::size_t choice(std::string_view name, std::initializer_list<std::string_view> words) const;
 

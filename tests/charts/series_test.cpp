@@ -119,8 +119,9 @@ TEST(Series, ARepeatedRowIsOneAndAContradictionIsRefused) {
 
 TEST(Series, NoTwoOrderingsLookAlike) {
     std::vector<Row> known;
-    for (const char* ordering : {"random", "naive", "tiled", "direction-binned", "direction-binned+hashed",
-                                 "hashed", "swizzle", "morton", "hilbert", "kd-leaf", "bvh-leaf"})
+    for (const char* ordering :
+         {"random", "naive", "tiled", "direction-binned", "direction-binned+hashed", "hashed", "swizzle",
+          "morton", "hilbert", "kd-leaf", "bvh-leaf", "strata", "strata+hashed"})
         known.push_back(made_row(ordering, {}, {}, 1));
     std::set<std::string> colours, names;
     std::set<int> markers;

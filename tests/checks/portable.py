@@ -27,6 +27,7 @@ captures = {
 }
 orders = ["naive", "random", "tiled:tile=4", "direction-binned", "hilbert", "morton", "swizzle", "hashed", "direction-binned+hashed",
           "kd-leaf", "bvh-leaf"]
+strata = ["strata:tile=4,strata=3", "strata:frame=world,order=morton", "strata+hashed:order=columns"]  # not of caustic queries
 caches = ["4K:64:full", "8K:128:8", "16K:32:1"]
 
 
@@ -53,7 +54,7 @@ def measure(run, folder):
         for column, facts in json.loads(trace.read_text())["columns"].items():
             found[f"{trace.parent.relative_to(folder)}/{column}"] = f"{facts['rows']} rows, xxh3_64 {facts['xxh3_64']}"
     replays = {
-        "replay": ["replay", folder / "portable/trace", "--order", *orders, "--cache", *caches],
+        "replay": ["replay", folder / "portable/trace", "--order", *orders, *strata, "--cache", *caches],
         "classes": ["replay", folder / "portable/trace", "--order", "hilbert", "--classes", "--buffers", "--cache", "8K:64:4"],
         "machine": ["replay", folder / "portable/trace", "--order", "naive", "hilbert", "--machine", "gpu-a100,paper-128k"],
         "caustic": ["replay", folder / "portable/caustic-trace", "--order", *orders, "--cache", *caches],

@@ -153,6 +153,77 @@ TEST(Replay, AUsersLibraryIsAnOrdering) {
     expect_refused(bad_usage, {"replay", trace, "--reorderer", library + ":fast"}, {"by_height.so", "fast"});
 }
 
+/// A key for each query of the small capture that turns its order round.
+std::vector<std::int32_t> turned_round() {
+    const trace::TraceReader trace(captured_box() / "trace");
+    std::vector<std::int32_t> keys(trace.info().queries);
+    for (std::size_t q = 0; q < keys.size(); ++q) keys[q] = -static_cast<std::int32_t>(q);
+    return keys;
+}
+
+TEST(Replay, AFileMadeInNumPyIsAnOrderingWhereverOneIsTaken) {
+    const Scratch scratch;
+    const std::string trace = (captured_box() / "trace").string(), keys = (scratch / "keys.npy").string(),
+                      order = (scratch / "order.npy").string();
+    std::vector<std::int32_t> values = turned_round();
+    const auto all = static_cast<std::int32_t>(values.size());
+    write_column<std::int32_t>(keys, values);
+    for (std::int32_t& value : values) value += all - 1;  // as a permutation: the last query first
+    write_column<std::int32_t>(order, values);
+    const std::vector<std::string> orders{"--order", "file:" + keys, "file:" + order + ",as=permutation"};
+    const auto rows =
+        results::from_csv(expect_done(std::vector<std::string>{"replay", trace, "--cache", "4K:128:8"} +
+                                      orders + std::vector<std::string>{"naive"})
+                              .out,
+                          "stdout");
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[0].ordering, "file:keys.npy");
+    EXPECT_THAT(rows[0].parameters, StartsWith("file:keys.npy,as=keys,xxh3="));
+    EXPECT_THAT(rows[1].parameters, StartsWith("file:order.npy,as=permutation,xxh3="));
+    EXPECT_EQ(rows[0].misses, rows[1].misses);
+    EXPECT_NE(rows[0].misses, rows[2].misses);
+    expect_done(std::vector<std::string>{"detail", trace} + orders);
+    expect_done(std::vector<std::string>{"heatmap", trace, "-o", (scratch / "map").string()} + orders);
+    expect_done(std::vector<std::string>{"race", trace, "--repeats", "1"} + orders);
+    expect_done(
+        std::vector<std::string>{"sampling", trace, "--rates", "2", "--seeds", "1", "--cache", "4K:128:1"} +
+        orders);
+    expect_refused(bad_usage, std::vector<std::string>{"race", trace, "--queries", "10"} + orders,
+                   {"--queries: found 10", "a file orders them"});
+    expect_refused(
+        bad_usage,
+        small_capture(scratch / "box") + std::vector<std::string>{"--gather-order", "file:" + keys},
+        {"gather_order", "keys.npy"});
+}
+
+TEST(Replay, AFileThatIsNoOrderOfTheTraceIsRefused) {
+    const Scratch scratch;
+    const std::string trace = (captured_box() / "trace").string(), keys = (scratch / "keys.npy").string();
+    const auto refused = [&](const std::string& suffix, const std::vector<std::string>& parts) {
+        expect_refused(bad_data, {"replay", trace, "--order", "file:" + keys + suffix}, parts);
+    };
+    refused("", {"keys.npy", "No such file"});
+    write_column<float>(keys, std::vector<float>{1, 2});
+    refused("", {"keys.npy", "'<f4'", "whole numbers"});
+    std::vector<std::int32_t> values = turned_round();
+    values.pop_back();
+    write_column<std::int32_t>(keys, values);
+    refused("", {"keys.npy", "one for each query"});
+    refused(",as=permutation", {"keys.npy", "row 1: found -1"});
+}
+
+TEST(Replay, ATraceWithoutStrataSaysWhatToDo) {
+    const Scratch scratch;
+    const fs::path trace = copied_trace(scratch);
+    nlohmann::json info = nlohmann::json::parse(content(trace / "trace.json"));
+    info["columns"].erase("query_stratum");
+    write(trace / "trace.json", info.dump());
+    fs::remove(trace / "query_stratum.npy");
+    expect_done({"replay", trace.string(), "--order", "strata:frame=world"});
+    expect_refused(bad_data, {"replay", trace.string(), "--order", "strata"},
+                   {"query_stratum.npy", "capture the scene again"});
+}
+
 TEST(Replay, AColumnThatWasLeftOutIsNamedWithItsReason) {
     const Scratch scratch;
     write_column<trace::Vec3>(scratch / "photon_position.npy", std::vector<trace::Vec3>{{0, 0, 0}});
@@ -160,7 +231,8 @@ TEST(Replay, AColumnThatWasLeftOutIsNamedWithItsReason) {
     expect_done({"walk", scratch.path().string(), "-o", (scratch / "trace").string()});
     for (const auto& [ordering, column] : {std::pair{"direction-binned", "query_direction"},
                                            {"kd-leaf", "query_leaf_kd"},
-                                           {"bvh-leaf", "query_leaf_bvh"}})
+                                           {"bvh-leaf", "query_leaf_bvh"},
+                                           {"strata", "query_stratum"}})
         expect_refused(bad_data, {"replay", (scratch / "trace").string(), "--order", ordering},
                        {std::string(column) + ".npy", "not among the columns given"});
 }

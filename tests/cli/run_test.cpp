@@ -11,6 +11,7 @@
 #include "experiment/kept.h"
 #include "results/csv.h"
 #include "tests/cli/expect.h"
+#include "tests/column.h"
 #include "trace/error.h"
 #include "trace/folder.h"
 
@@ -331,6 +332,40 @@ TEST_F(Run, TheSameRowTwiceIsRefused) {
     // The same ordering through other caches is no repetition.
     write(file_, with("\"naive\",", R"("naive", {"ordering": "naive", "caches": [{"size": "1K"}]},)"));
     EXPECT_NO_THROW(experiment::load_experiment(file_));
+}
+
+TEST_F(Run, AFileOfKeysLiesBesideTheExperiment) {
+    expect_done(words());
+    std::vector<std::uint16_t> keys(trace::TraceReader(folder_ / "trace").info().queries, 7);
+    const auto asked = [&] {
+        write_column<std::uint16_t>(scratch_ / "keys.npy", keys);
+        write(file_, with("\"naive\"", "\"naive\", \"file:keys.npy\""));
+        expect_done(words());
+        return results::read_csv(folder_ / "rows.csv");
+    };
+    const auto level = asked();
+    ASSERT_EQ(level.size(), rows + 2);
+    EXPECT_EQ(level[2].ordering, "file:keys.npy");
+    EXPECT_EQ(level[2].misses, level[0].misses);  // equal keys: capture order
+    // Other keys under the same name are another part.
+    for (std::size_t q = 0; q < keys.size(); ++q) keys[q] = static_cast<std::uint16_t>(q * 40503);
+    EXPECT_NE(asked()[2].misses, level[0].misses);
+    write_column<float>(scratch_ / "keys.npy", std::vector<float>{1});
+    expect_refused(bad_data, words(), {"keys.npy", "'<f4'"});
+}
+
+TEST_F(Run, StrataAreCapturedForTheOrderingThatReadsThem) {
+    write(file_, with("\"naive\"", "\"naive\", \"strata:tile=4,strata=2\", \"strata+hashed:tile=4\""));
+    expect_done(words());
+    EXPECT_TRUE(trace::TraceReader(folder_ / "trace").has("query_stratum"));
+    const auto all = results::read_csv(folder_ / "rows.csv");
+    ASSERT_EQ(all.size(), rows + 4);
+    EXPECT_EQ(all[2].ordering, "strata");
+    EXPECT_EQ(all[2].bins, 2u);
+    EXPECT_EQ(all[2].key_ops, 0u);
+    EXPECT_EQ(all[2].buffered_bytes, 16 * 48u);
+    EXPECT_LT(all[2].misses, all[0].misses);
+    expect_done(words());  // kept
 }
 
 TEST_F(Run, AUsersLibraryIsGivenEveryColumnThatAnOrderingCouldRead) {

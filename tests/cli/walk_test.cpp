@@ -9,6 +9,7 @@
 #include "spatial/photons/structures.h"
 #include "tests/cli/expect.h"
 #include "tests/column.h"
+#include "tests/numpy.h"
 #include "trace/folder.h"
 #include "trace/npy.h"
 
@@ -21,19 +22,6 @@ using trace::Vec3;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN(),
                 infinity = std::numeric_limits<float>::infinity();
-
-/// As numpy.save writes it: a header of 128 bytes.
-std::string numpy_file(const std::string& descr, const std::string& shape, const std::string& rows) {
-    std::string file("\x93NUMPY\x01\x00\x76\x00", 10);
-    file += "{'descr': '" + descr + "', 'fortran_order': False, 'shape': " + shape + ", }";
-    file.resize(127, ' ');
-    return file + '\n' + rows;
-}
-
-template <class T>
-std::string bytes_of(const std::vector<T>& values) {
-    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
-}
 
 class Walk : public testing::Test {
 protected:
@@ -80,9 +68,10 @@ TEST_F(Walk, EveryColumnServesItsOrdering) {
     column("query_weight", std::vector<Vec3>(4, {1, 1, 1}));
     column("query_leaf_kd", std::vector<std::uint32_t>{3, 2, 1, 0});
     column("query_leaf_bvh", std::vector<std::uint32_t>{0, 0, 1, 1});
+    column("query_stratum", std::vector<std::uint32_t>{0, 1, 0xffffffff, 7});
     expect_done(words({"--width", "4"}));
     EXPECT_THAT(expect_done({"info", trace_.string()}).out, HasSubstr("4 x 2 pixels"));
-    for (const char* ordering : {"naive", "tiled", "direction-binned", "kd-leaf", "bvh-leaf"})
+    for (const char* ordering : {"naive", "tiled", "direction-binned", "kd-leaf", "bvh-leaf", "strata"})
         expect_replayed(ordering, 4);
 }
 

@@ -30,7 +30,12 @@ std::vector<std::string> specs() {
                                    "direction-binned:tile=7,bins=3,state=recast",
                                    "hashed:buckets=3,capacity=2",
                                    "direction-binned+hashed:tile=7,bins=3,buckets=3,capacity=2",
-                                   "direction-binned+hashed:tile=7,bins=3,buckets=3,capacity=2,state=recast"};
+                                   "direction-binned+hashed:tile=7,bins=3,buckets=3,capacity=2,state=recast",
+                                   "strata:tile=7,strata=3",
+                                   "strata:tile=7,strata=3,frame=world",
+                                   "strata:tile=7,strata=3,state=recast",
+                                   "strata:tile=7,strata=1",
+                                   "strata+hashed:tile=7,strata=3,buckets=3,capacity=2,frame=world"};
     for (const Entry& entry : catalogue()) specs.emplace_back(entry.name);
     return specs;
 }
@@ -59,6 +64,7 @@ TEST(BufferUse, EverySpilledOrderingOfTheCatalogueHasBytes) {
     queries.direction.assign(1024, {0, 0, 1});
     queries.leaf_kd.assign(1024, 1);
     queries.leaf_bvh.assign(1024, 1);
+    queries.stratum.assign(1024, 1);
     for (const Entry& entry : catalogue()) {
         const bool generative = entry.name == "naive" || entry.name == "random" || entry.name == "tiled";
         EXPECT_EQ(written_bytes(use_of(entry.name, queries, 100)) == 0, generative) << entry.name;

@@ -22,9 +22,10 @@ std::string refusal(std::string_view spec) {
 TEST(Catalogue, HoldsTheOrderingsOfThePaper) {
     std::vector<std::string_view> names;
     for (const Entry& entry : catalogue()) names.push_back(entry.name);
-    EXPECT_THAT(names, testing::UnorderedElementsAre("naive", "random", "tiled", "direction-binned",
-                                                     "hilbert", "morton", "swizzle", "hashed",
-                                                     "direction-binned+hashed", "kd-leaf", "bvh-leaf"));
+    EXPECT_THAT(names,
+                testing::UnorderedElementsAre("naive", "random", "tiled", "direction-binned", "hilbert",
+                                              "morton", "swizzle", "hashed", "direction-binned+hashed",
+                                              "kd-leaf", "bvh-leaf", "strata", "strata+hashed"));
 }
 
 TEST(Catalogue, SpecTellsEveryParameterAndIsASpecAgain) {
@@ -42,6 +43,10 @@ TEST(Catalogue, SpecTellsEveryParameterAndIsASpecAgain) {
         {"direction-binned+hashed",
          "direction-binned+hashed:tile=16,bins=16,passes=256,state=store,buckets=512,capacity=64,cells=16"},
         {"kd-leaf", "kd-leaf"},
+        {"strata", "strata:tile=16,strata=10,order=rows,frame=local,state=store"},
+        {"strata+hashed:cells=4,order=morton",
+         "strata+hashed:tile=16,strata=10,order=morton,frame=local,state=store,buckets=512,capacity=64,"
+         "cells=4"},
     };
     for (const auto& [given, told] : canonical) {
         EXPECT_EQ(parse_ordering(given).spec.text, told);
@@ -55,6 +60,7 @@ TEST(Catalogue, SpecTellsTileAndBins) {
     EXPECT_EQ(parse_ordering("hilbert:tile=32").spec.bins, std::nullopt);
     EXPECT_EQ(parse_ordering("direction-binned+hashed:bins=4").spec.bins, 4u);
     EXPECT_EQ(parse_ordering("direction-binned+hashed:bins=4").spec.tile, 16u);
+    EXPECT_EQ(parse_ordering("strata:strata=7").spec.bins, 7u);
     EXPECT_EQ(parse_ordering("naive").spec.tile, std::nullopt);
     EXPECT_EQ(parse_ordering("naive").spec.name, "naive");
 }
@@ -103,6 +109,11 @@ TEST(Catalogue, RefusesValuesOutOfRange) {
               "hashed: buckets x capacity is 4294967296, expected 1 to 67108864");
     EXPECT_EQ(refusal("hashed:cells=0"), "hashed: cells is 0, expected 1 to 2097152");
     EXPECT_EQ(refusal("kd-leaf:tile=0"), "kd-leaf: tile is 0, expected 1 to 65536");
+    EXPECT_EQ(refusal("strata:strata=0"), "strata: strata is 0, expected 1 to 1024");
+    EXPECT_EQ(refusal("strata:strata=1025"), "strata: strata is 1025, expected 1 to 1024");
+    EXPECT_EQ(refusal("strata:tile=0"), "strata: tile is 0, expected 1 to 65536");
+    EXPECT_THAT(refusal("strata:frame=world,state=recast"), HasSubstr("state is recast, expected store"));
+    EXPECT_THAT(refusal("strata+hashed:frame=sky"), HasSubstr("known: local, world"));
 }
 
 TEST(Catalogue, RefusesMalformedSpecs) {

@@ -19,6 +19,7 @@ Queries image() {
     queries.direction.assign(n, {0, 0, 1});
     queries.leaf_kd.assign(n, 256);  // 9 bits
     queries.leaf_bvh.assign(n, 0);
+    queries.stratum.assign(n, 0);
     return queries;
 }
 
@@ -59,6 +60,31 @@ TEST(Cost, DirectionBinnedRecastsEachPixelInEachLaterPass) {
     EXPECT_EQ(cost.recast_rays, 32u * 16 * 15);
     EXPECT_EQ(cost.buffered_bytes, 0u);
     EXPECT_EQ(cost.reorder_bytes, 0u);
+}
+
+TEST(Cost, StrataDrawNothingAgainAndKeepATilesPixels) {
+    const Cost cost = cost_of("strata:tile=8,strata=4");
+    EXPECT_EQ(cost.keys + cost.key_ops + cost.sort_passes + cost.moved_records + cost.stalls, 0u);
+    EXPECT_EQ(cost.buffered_bytes, 8 * 8 * state);
+    EXPECT_EQ(cost.reorder_bytes + cost.recast_rays, 0u);
+    EXPECT_EQ(cost_of("strata:tile=8,strata=4", 8 * 8 * state - 1).reorder_bytes, 32 * 16 * state * 16);
+    EXPECT_EQ(cost_of("strata:strata=1").buffered_bytes, 0u);  // nothing comes later
+    const Cost recast = cost_of("strata:tile=8,strata=3,state=recast", 0);
+    EXPECT_EQ(recast.recast_rays, 32u * 16 * 8);
+    EXPECT_EQ(recast.buffered_bytes + recast.reorder_bytes, 0u);
+}
+
+TEST(Cost, BinsOfTheWorldAreListedOnceByPixel) {
+    // 3 samples are 2 bits, 81 passes 7: an entry of 2 bytes, three of them a pixel.
+    const Cost cost = cost_of("strata:tile=8,strata=9,frame=world");
+    EXPECT_EQ(cost.buffered_bytes, 8 * 8 * (state + 3 * 2));
+    EXPECT_EQ(cost.keys, n);
+    EXPECT_EQ(cost.key_ops, n * 77 + 32 * 16 * 81 * 3);
+    EXPECT_EQ(cost.recast_rays, 0u);
+    // 64 passes are 6 bits, with 2 one byte.
+    EXPECT_EQ(cost_of("strata:tile=8,strata=8,frame=world").buffered_bytes, 8 * 8 * (state + 3));
+    EXPECT_EQ(cost_of("strata:tile=8,strata=8,frame=world", 0).reorder_bytes, 32 * 16 * (state + 3) * 64);
+    EXPECT_EQ(cost_of("strata:strata=1,frame=world").key_ops, 0u);
 }
 
 TEST(Cost, SortedOrderingsBufferATileOrAll) {
@@ -123,6 +149,10 @@ TEST(Cost, BehindDirectionBinsCostsAreSummed) {
     // the buckets are placed first, so the pixel state goes out
     EXPECT_EQ(cost_of(spec, buckets + tile - 1).reorder_bytes, 32 * 16 * state * 16);
     EXPECT_EQ(cost_of("direction-binned+hashed:state=recast,bins=2").recast_rays, 32u * 16 * 3);
+    const Cost strata = cost_of("strata+hashed:tile=8,strata=4,buckets=8,capacity=16", buckets + tile);
+    EXPECT_EQ(strata.keys, n);
+    EXPECT_EQ(strata.key_ops, n * 21);
+    EXPECT_EQ(strata.buffered_bytes, buckets + tile);
 }
 
 }  // namespace

@@ -21,7 +21,10 @@ std::vector<std::string> specs() {
                                    "swizzle:tile=7,bits=8",
                                    "hashed:buckets=3,capacity=2,cells=2",
                                    "kd-leaf:tile=2",
-                                   "direction-binned+hashed:tile=3,capacity=1"};
+                                   "direction-binned+hashed:tile=3,capacity=1",
+                                   "strata:tile=5,strata=3,order=columns",
+                                   "strata:tile=2,strata=5,order=morton,frame=world",
+                                   "strata+hashed:tile=3,capacity=1,frame=world"};
     for (const Entry& entry : catalogue()) specs.emplace_back(entry.name);
     return specs;
 }
@@ -62,6 +65,7 @@ TEST_P(EveryOrdering, DoesNotDependOnThreads) {
                       Vec3{-1, -1, -1}));
         queries.leaf_kd.push_back(static_cast<std::uint32_t>(scrambled(i) % 5000));
         queries.leaf_bvh.push_back(static_cast<std::uint32_t>(scrambled(i) % 90));
+        queries.stratum.push_back(static_cast<std::uint32_t>(scrambled(i)));
     }
     const std::unique_ptr<Ordering> ordering = make_ordering(GetParam());
     const auto run = [&](std::size_t threads) {
@@ -82,6 +86,7 @@ TEST_P(EveryOrdering, WorksOnNoneOneAndCoincidentQueries) {
         queries.direction.assign(count, {0, 0, 1});
         queries.leaf_kd.assign(count, 9);
         queries.leaf_bvh.assign(count, 9);
+        queries.stratum.assign(count, 9);
         const auto permutation = order(*ordering, queries.workload()).permutation;
         ASSERT_EQ(permutation.size(), count);
         if (GetParam().starts_with("random")) continue;
@@ -116,6 +121,9 @@ TEST(Order, NamesAMissingColumnOnlyWhenTheOrderingReadsIt) {
         "usage: the ordering reads column direction, which this capture does not have";
     EXPECT_EQ(refusal("direction-binned", bare), direction);
     EXPECT_EQ(refusal("direction-binned+hashed", bare), direction);
+    EXPECT_EQ(refusal("strata:frame=world", bare), direction);
+    EXPECT_EQ(refusal("strata", bare),
+              "usage: the ordering reads column stratum, which this capture does not have");
     EXPECT_EQ(refusal("kd-leaf", bare),
               "usage: the ordering reads column leaf_kd, which this capture does not have");
     EXPECT_EQ(refusal("bvh-leaf", bare),
@@ -127,6 +135,10 @@ TEST(Order, RefusesInconsistentColumns) {
     queries.direction.resize(15);
     EXPECT_EQ(refusal("naive", queries),
               "data: query_direction.npy: found 15 rows, expected 16 as in query_position.npy");
+    queries = one_per_pixel(4, 4);
+    queries.stratum.resize(17);
+    EXPECT_EQ(refusal("naive", queries),
+              "data: query_stratum.npy: found 17 rows, expected 16 as in query_position.npy");
     queries = one_per_pixel(4, 4);
     queries.pixel[9] = 16;
     EXPECT_EQ(refusal("naive", queries),

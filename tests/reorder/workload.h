@@ -11,7 +11,7 @@ namespace regather::reorder {
 
 struct Queries {
     std::vector<Vec3> position, direction;
-    std::vector<std::uint32_t> pixel, leaf_kd, leaf_bvh;
+    std::vector<std::uint32_t> pixel, leaf_kd, leaf_bvh, stratum;
     std::uint32_t width = 1, height = 1;
 
     Workload workload() const {
@@ -20,6 +20,7 @@ struct Queries {
                 .pixel = pixel,
                 .leaf_kd = leaf_kd,
                 .leaf_bvh = leaf_bvh,
+                .stratum = stratum,
                 .bounds = trace::bounds_of(position),
                 .image_width = width,
                 .image_height = height};
@@ -77,6 +78,7 @@ inline Queries any_queries() {
                                                            (std::uint64_t{queries.width} * queries.height)));
         queries.leaf_kd.push_back(static_cast<std::uint32_t>(scrambled(point)));
         queries.leaf_bvh.push_back(static_cast<std::uint32_t>(scrambled(point) % 7));
+        queries.stratum.push_back(static_cast<std::uint32_t>(scrambled(seed + 11 * i)));
     }
     return queries;
 }

@@ -49,6 +49,7 @@ struct Traced {
                 .pixel = pixels,
                 .leaf_kd = leaves,
                 .leaf_bvh = leaves,
+                .stratum = leaves,
                 .bounds = trace::bounds_of(points),
                 .image_width = width,
                 .image_height = width};
