@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "results/benefit.h"
+#include "results/budget.h"
 
 namespace regather::charts {
 namespace {
@@ -20,9 +21,7 @@ std::uint64_t least_net(const Envelope& envelope, std::uint64_t budget) {
 
 std::optional<std::uint64_t> budget_bytes(const results::Row& row) {
     if (!row.cache_bytes) return {};
-    const std::uint64_t buffered = row.buffered_bytes.value_or(0);
-    const bool fits = row.onchip_bytes ? buffered <= *row.onchip_bytes : row.reorder_bytes.value_or(0) == 0;
-    return *row.cache_bytes + (fits ? buffered : 0);
+    return *row.cache_bytes + (results::stays_on_chip(row) ? row.buffered_bytes.value_or(0) : 0);
 }
 
 std::vector<Envelope> envelopes(std::span<const results::Row> rows) {

@@ -10,10 +10,11 @@ Chart traffic_by_tile(const ChartKind& kind, const results::Rows& rows, const Ch
 Chart traffic_by_cache(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart cost_by_tile(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart cost_by_bins(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
-// Other measurements: a bar an ordering by Hill's classes; the least net traffic for a budget; along a camera
-// path; a line a structure and layout.
+// Other measurements: a bar an ordering by Hill's classes; the least net traffic for a budget of cache and
+// state, and for one of state beside each cache; along a camera path; a line a structure and layout.
 Chart misses_by_class(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart net_benefit(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
+Chart best_under_budget(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart traffic_by_frame(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart traffic_by_layout(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 // Rows by region and depth, by slice of the run, of sampled runs.

@@ -228,4 +228,17 @@ Line line_of(const Curve& curve) {
     return line;
 }
 
+Line line_of(const std::string& ordering, std::span<const std::string> all) {
+    std::vector<results::Row> names;
+    for (const std::string& name : all) {
+        results::Row& row = names.emplace_back();
+        row.ordering = name;
+        row.cache_bytes = row.line_bytes = row.ways = row.tile = 1;
+        row.traffic_bytes = 0;
+    }
+    for (const Curve& curve : curves(names, Along::tile, {{1, 1, 1}, 1, 1}))
+        if (curve.rows.front()->ordering == ordering) return line_of(curve);
+    return {};
+}
+
 }  // namespace regather::charts

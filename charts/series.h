@@ -45,5 +45,7 @@ std::vector<Curve> curves(std::span<const results::Row> rows, Along along, const
 
 /// A line in a curve's look, without points.
 Line line_of(const Curve& curve);
+/// In an ordering's look, whatever its parameters, among all of a picture.
+Line line_of(const std::string& ordering, std::span<const std::string> all);
 
 }  // namespace regather::charts

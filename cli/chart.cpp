@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -10,6 +12,7 @@
 #include "cli/command.h"
 #include "cli/commands.h"
 #include "results/accuracy.h"
+#include "results/budget.h"
 #include "results/rows.h"
 #include "trace/error.h"
 #include "trace/file.h"
@@ -21,7 +24,7 @@ namespace {
 struct Request {
     std::vector<std::string> csv, kinds;
     std::string cache;
-    std::filesystem::path folder;
+    std::filesystem::path folder, front;
     std::uint64_t tile = 16, bins = 16;
     bool force = false;
 };
@@ -44,6 +47,12 @@ void run(const Request& request, const Console& console) {
                                            trace::shown(request.csv[0], trace::most_shown_path)));
     for (const charts::ChartKind* const kind : kinds)
         trace::refuse_to_overwrite(charts::files_of(request.folder, *kind), request.force);
+    if (!request.front.empty()) trace::refuse_to_overwrite(std::array{request.front}, request.force);
+    const std::vector<results::Row> shown = results::rows_of_shape(rows.of<results::Row>(), options.cache);
+    if (!request.front.empty() && std::none_of(kinds.begin(), kinds.end(), [](const auto* kind) {
+            return kind->name == "best-under-budget";
+        }))
+        throw trace::UsageError("--front: found, but not the kind best-under-budget, whose rows it writes");
     bool any = false;
     std::string skipped;
     for (const auto& drawn : charts::write_charts(request.folder, rows, request.kinds, options)) {
@@ -51,11 +60,17 @@ void run(const Request& request, const Console& console) {
         any |= !drawn.files.empty();
         if (drawn.kind == "sampling-error" && !drawn.files.empty())
             console.print("{}", results::text_of(results::accuracy_table(rows.of<results::SamplingRow>())));
+        if (drawn.kind == "best-under-budget" && !drawn.files.empty())
+            console.print("{}", results::text_of(results::budget_tables(shown), 120));
         if (drawn.skipped.empty()) continue;
         const std::string line =
             fmt::format("{}: not drawn: {}", drawn.kind, trace::shown(drawn.skipped, 300));
         console.print("{}\n", line);
         if (skipped.empty()) skipped = line;
+    }
+    if (!request.front.empty()) {
+        results::write_csv<results::Row>(request.front, results::front_rows(shown));
+        console.print("rows: {}\n", request.front.string());
     }
     // What was asked for by name must be there; of "every kind that applies" at least one.
     if (!skipped.empty() && (!any || !request.kinds.empty())) throw trace::DataError(skipped);
@@ -84,7 +99,9 @@ void add_chart(Command& command) {
                    "SIZE:LINE:WAYS of the rows to draw, as 128K:128:8; without it, the commonest");
     command.option("--tile", request->tile, {1}, "tile edge [pixels] where it is not the axis");
     command.option("--bins", request->bins, {1}, "direction bins (n of n x n) where they are not the axis");
-    command.flag("--force", request->force, "replace charts that exist");
+    command.option("--front", request->front,
+                   "write the rows on the curves of best-under-budget here, a CSV");
+    command.flag("--force", request->force, "replace files that exist");
     command.footer(footer());
     command.action(request, run);
 }

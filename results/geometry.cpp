@@ -57,8 +57,11 @@ Geometry parse_geometry(std::string_view text) {
 }
 
 std::string geometry_text(const Geometry& geometry) {
-    return fmt::format("{}, {} lines, {}", binary_bytes(geometry.cache_bytes),
-                       binary_bytes(geometry.line_bytes),
+    return fmt::format("{}, {}", binary_bytes(geometry.cache_bytes), shape_text(geometry));
+}
+
+std::string shape_text(const Geometry& geometry) {
+    return fmt::format("{} lines, {}", binary_bytes(geometry.line_bytes),
                        geometry.ways == 0   ? "fully associative"
                        : geometry.ways == 1 ? "direct mapped"
                                             : fmt::format("{}-way", geometry.ways));

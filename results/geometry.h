@@ -25,6 +25,9 @@ Geometry parse_geometry(std::string_view text);
 /// "128 KiB, 128 B lines, 8-way".
 std::string geometry_text(const Geometry& geometry);
 
+/// The same without the size.
+std::string shape_text(const Geometry& geometry);
+
 /// Nothing for a row without a cache.
 std::optional<Geometry> geometry_of(const Row& row);
 

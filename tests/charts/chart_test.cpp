@@ -142,9 +142,9 @@ TEST(Chart, AnUnknownKindIsRefusedWithTheKnownOnes) {
         EXPECT_STREQ(
             error.what(),
             "chart \"pie\" is not known, expected one of traffic-by-tile, traffic-by-cache, cost-by-tile, "
-            "cost-by-bins, misses-by-class, net-benefit, traffic-by-frame, traffic-by-layout, "
-            "traffic-by-depth, timeline, sampling-error, error-by-time, error-by-render-time, efficiency, "
-            "bias-by-photons, bias-by-k, stability");
+            "cost-by-bins, misses-by-class, net-benefit, best-under-budget, traffic-by-frame, "
+            "traffic-by-layout, traffic-by-depth, timeline, sampling-error, error-by-time, "
+            "error-by-render-time, efficiency, bias-by-photons, bias-by-k, stability");
     }
 }
 
@@ -158,7 +158,7 @@ TEST(Chart, TicksAreRoundAndEnclose) {
 TEST(Chart, EveryKindBecomesTwoPicturesWithItsLabels) {
     const Folder folder;
     const auto drawn = write_charts(folder.path(), Rows(figure()), {}, {});
-    ASSERT_EQ(drawn.size(), 8u);
+    ASSERT_EQ(drawn.size(), 9u);
     EXPECT_EQ(drawn[4].skipped, "no row has compulsory, capacity and conflict");
     EXPECT_EQ(drawn[5].kind, "net-benefit");
     for (const Drawn& one : std::span(drawn).first(4)) {

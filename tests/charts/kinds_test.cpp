@@ -124,6 +124,44 @@ TEST(NetBenefit, ComparesOneSettingOnly) {
                 HasSubstr("buffer_traffic_bytes or reorder_bytes"));
 }
 
+TEST(BestUnderBudget, DrawsAStepLineForEachCacheAndMarksWhoTakesTheSteps) {
+    const std::vector<Row> rows = {
+        netted("naive", 16384, 0, 90000000000, 0),
+        netted("naive", 65536, 0, 80000000000, 0),
+        netted("direction-binned", 65536, 768, 40000000000, 0),
+        netted("hilbert", 65536, 16384, 30000000000, 0),
+        netted("morton", 65536, 20000, 31000000000, 0),
+        with_parameters(netted("hilbert", 65536, 2097152, 5000000000, 7000000000), "hilbert:bits=10")};
+    const Chart chart = compose("best-under-budget", only(rows));
+    ASSERT_EQ(chart.skipped, "");
+    // On the chip. What needs less than 1 KiB stands at the left end; a line goes on to 64 MiB.
+    EXPECT_EQ(data_of(chart, "$line_0", "16 KiB cache"), "1024 90\n67108864 90\n");
+    EXPECT_EQ(data_of(chart, "$line_0", "64 KiB cache"), "1024 40\n16384 40\n16384 30\n67108864 30\n");
+    EXPECT_EQ(data_of(chart, "$line_0", "Naive"), "1024 90\n");
+    EXPECT_EQ(data_of(chart, "$line_0", "Direction bins"), "1024 40\n");
+    EXPECT_EQ(data_of(chart, "$line_0", "Hilbert"), "16384 30\n");
+    // Through memory: 12 GB for the whole chip of 1 MiB.
+    EXPECT_EQ(data_of(chart, "$line_1", "64 KiB cache"),
+              "1024 40\n16384 40\n16384 30\n1048576 30\n1048576 12\n67108864 12\n");
+    EXPECT_EQ(data_of(chart, "$line_1", "Hilbert"), "16384 30\n1048576 12\n");
+    EXPECT_EQ(data_of(chart, "$line_0", "Morton"), "absent");
+    EXPECT_EQ(chart.caption, "room · 1.00 k queries · 128 B lines, 8-way LRU · left-balanced-kd · heap-20");
+}
+
+TEST(BestUnderBudget, SaysWhyItIsNotDrawn) {
+    std::vector<Row> rows = {netted("naive", 16384, 0, 9, 0), netted("naive", 65536, 0, 8, 0)};
+    EXPECT_THAT(compose("best-under-budget", only(rows)).skipped, HasSubstr("found no two that differ"));
+    rows.push_back(netted("hilbert", 65536, 4096, 7, 0));
+    EXPECT_EQ(compose("best-under-budget", only(rows)).skipped, "");
+    ChartOptions other;
+    other.cache = Geometry{65536, 64, 8};
+    EXPECT_EQ(compose("best-under-budget", only(rows), other).skipped, "no row has 64 B lines, 8-way");
+    rows[0].scene = "box";
+    EXPECT_EQ(compose("best-under-budget", only(rows)).skipped,
+              "needs rows of one scene, frame, structure, layout and policy");
+    EXPECT_THAT(compose("best-under-budget", {}).skipped, HasSubstr("at least 2 states"));
+}
+
 DetailRow level(std::string ordering, Count depth, std::uint64_t traffic, std::uint64_t used) {
     DetailRow row;
     row.scene = "room";
@@ -244,9 +282,10 @@ TEST(Chart, TheKindsThatAreWantedAreThoseWithRows) {
         return out;
     };
     EXPECT_THAT(names(wanted_kinds(Rows(details), {})), ElementsAre("traffic-by-depth"));
-    EXPECT_THAT(names(wanted_kinds(only(rows), {})),
-                ElementsAre("traffic-by-tile", "traffic-by-cache", "cost-by-tile", "cost-by-bins",
-                            "misses-by-class", "net-benefit", "traffic-by-frame", "traffic-by-layout"));
+    EXPECT_THAT(
+        names(wanted_kinds(only(rows), {})),
+        ElementsAre("traffic-by-tile", "traffic-by-cache", "cost-by-tile", "cost-by-bins", "misses-by-class",
+                    "net-benefit", "best-under-budget", "traffic-by-frame", "traffic-by-layout"));
     const std::string asked[] = {"timeline"};
     EXPECT_THAT(names(wanted_kinds(only(rows), asked)), ElementsAre("timeline"));
     EXPECT_TRUE(wanted_kinds({}, {}).empty());
@@ -255,7 +294,8 @@ TEST(Chart, TheKindsThatAreWantedAreThoseWithRows) {
 TEST(Chart, EveryFurtherKindBecomesAPictureWhateverTheNames) {
     const std::string name = "it's `id` \\ {/x} <b>&\nexit 3";
     std::vector<Row> rows = {classed(name, {}, 1, 2, 3), netted(name, 16384, 0, 9000, 0),
-                             netted(name, 65536, 0, 80, 0)};
+                             netted(name, 65536, 0, 80, 0),
+                             with_parameters(netted(name, 65536, 4096, 70, 0), "x:bits=3")};
     std::vector<Row> elsewhere(2, rows[1]);
     elsewhere[1].layout = name;
     const std::vector<DetailRow> details = {level(name, 0, 128, 128), level(name, 1, 256, 128)};
@@ -266,8 +306,8 @@ TEST(Chart, EveryFurtherKindBecomesAPictureWhateverTheNames) {
     all.of<DetailRow>() = details;
     all.of<TimelineRow>() = slices;
     all.of<SamplingRow>() = runs;
-    for (const char* kind : {"misses-by-class", "net-benefit", "traffic-by-layout", "traffic-by-depth",
-                             "timeline", "sampling-error"}) {
+    for (const char* kind : {"misses-by-class", "net-benefit", "best-under-budget", "traffic-by-layout",
+                             "traffic-by-depth", "timeline", "sampling-error"}) {
         const Rows& given = kind == std::string_view("traffic-by-layout") ? layouts : all;
         const Chart chart = compose(kind, given);
         ASSERT_EQ(chart.skipped, "") << kind;

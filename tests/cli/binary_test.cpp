@@ -1,6 +1,7 @@
 // The binary's smaller subcommands: scenes, info, chart, cachesim.
 #include <fmt/format.h>
 
+#include "results/csv.h"
 #include "scenes/catalogue.h"
 #include "tests/cli/expect.h"
 #include "tests/column.h"
@@ -100,6 +101,27 @@ TEST_F(Chart, ExistingOnesAreReplacedOnlyByForce) {
     expect_refused(bad_usage, words({"--kind", "traffic-by-tile"}), {"traffic-by-tile.svg", "--force"});
     EXPECT_EQ(contents(charts_), (std::map<std::string, std::string>{{"traffic-by-tile.svg", "precious"}}));
     expect_done(words({"--kind", "traffic-by-tile", "--force"}));
+}
+
+TEST_F(Chart, TheBestUnderABudgetAreATableAndRows) {
+    const std::string front = (scratch_ / "front.csv").string();
+    const std::vector<std::string> asked = words({"--kind", "best-under-budget", "--front", front});
+    EXPECT_THAT(expect_done(asked).out,
+                testing::AllOf(HasSubstr("4 KiB, 128 B lines, 8-way"), HasSubstr("hilbert:tile=8,bits=16"),
+                               HasSubstr("on the chip"), HasSubstr("front.csv")));
+    // Every row on the front stands among those of the replay; the whole of naive's costs nothing.
+    const auto all = results::read_csv(csv_), best = results::read_csv(front);
+    ASSERT_GE(best.size(), 2u);
+    EXPECT_EQ(best.back().parameters, "hilbert:tile=8,bits=16");
+    for (const results::Row& row : best)
+        EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const results::Row& other) {
+            return other.parameters == row.parameters && other.traffic_bytes == row.traffic_bytes;
+        }));
+    expect_refused(bad_usage, asked, {"best-under-budget.svg", "--force"});
+    fs::remove_all(charts_);
+    expect_refused(bad_usage, asked, {"front.csv", "--force"});
+    expect_refused(bad_usage, words({"--kind", "traffic-by-tile", "--front", front, "--force"}),
+                   {"--front", "best-under-budget"});
 }
 
 TEST_F(Chart, ADamagedCsvIsRefusedWithTheLine) {
