@@ -32,7 +32,7 @@ std::vector<std::tuple<std::uint64_t, std::uint64_t, std::string>> steps(const F
 
 TEST(Budget, StateThatDoesNotFitTakesTheWholeChip) {
     EXPECT_EQ(onchip_state(point("hilbert", 64, 999, 1)), 999u);
-    EXPECT_EQ(onchip_state(point("hilbert", 64, 1000, 1)), 1000u);
+    EXPECT_TRUE(stays_on_chip(point("hilbert", 64, 1000, 1)));
     EXPECT_EQ(onchip_state(point("hilbert", 64, 1001, 1, 5)), 1000u);
     EXPECT_FALSE(stays_on_chip(point("hilbert", 64, 1001, 1, 5)));
     Row row = point("hilbert", 64, 5000, 1);
