@@ -88,9 +88,9 @@ std::shared_ptr<const Structure> open_heap(trace::TraceReader& trace) {
 class BucketSearch final : public PhotonSearch {
 public:
     BucketSearch(std::span<const Photon> photons, const BucketKd::Config& config, bool tells_found,
-                 const std::string& text)
+                 std::string text)
         : tree_(photons, config, text), structure_(tree_.share_shape()), tells_found_(tells_found) {
-        if (tells_found) structure_ = std::make_shared<WithFound>(structure_, text);
+        if (tells_found) structure_ = std::make_shared<WithFound>(structure_, std::move(text));
     }
     std::shared_ptr<const Structure> structure() const override { return structure_; }
     Recording record(std::span<const Vec3> points, std::uint32_t k, float radius) const override {
@@ -135,7 +135,7 @@ std::unique_ptr<PhotonSearch> build_buckets(std::span<const Photon> heap, const 
         BucketKd::Config{.rule = rule,
                          .leaf_photons = given.count("leaf"),
                          .radius = rule == SplitRule::voxel_volume ? expected_radius(heap, k, radius) : 0},
-        tells_found(given), text);
+        tells_found(given), std::move(text));
 }
 
 [[noreturn]] void refuse(const trace::TraceReader& trace, std::string_view column, std::uint64_t row,
