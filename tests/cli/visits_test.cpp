@@ -82,6 +82,7 @@ TEST_F(Visits, OrderingsLayoutsCachesAndChartsRunOnThem) {
     column<std::uint32_t>("query_pixel", {0, 1, 1, 2, 3});
     column<std::uint32_t>("query_leaf_kd", {3, 2, 1, 0, 0});
     column<std::uint32_t>("query_leaf_bvh", {0, 0, 1, 1, 2});
+    column<std::uint32_t>("query_stratum", {5u << 16 | 7, 1, 40000u << 16, 9, 65535});
     expect_done(words({"--width", "2"}));
     expect_done({"info", trace_.string(), "--verify"});
     std::vector<std::string> all{"--order"};
