@@ -25,5 +25,5 @@ if(REGATHER_TESTS)
     regather_precompiled_headers(regather_test_precompiled
         HEADERS ${regather_standard_headers} <gtest/gtest.h> <gmock/gmock.h> <rapidcheck.h>
         NEEDS fmt::fmt GTest::gtest GTest::gmock rapidcheck)
-    target_compile_options(regather_test_precompiled PRIVATE ${regather_cold})
+    target_compile_options(regather_test_precompiled PRIVATE ${REGATHER_TEST_LEVEL})
 endif()
