@@ -25,9 +25,7 @@ public:
     }
     std::uint32_t count() const { return static_cast<std::uint32_t>(classes_.size()); }
     std::uint32_t of(std::uint32_t element) const {
-        std::size_t r = 0;
-        while (r + 1 < starts_.size() && element >= structure_.ranges()[r + 1].first) ++r;
-        return starts_[r] + structure_.level(element);
+        return starts_[spatial::range_at(structure_.ranges(), element)] + structure_.level(element);
     }
     trace::Region region(std::uint32_t c) const { return classes_[c].region; }
     std::uint32_t level(std::uint32_t c) const { return classes_[c].level; }

@@ -40,9 +40,7 @@ public:
                                 : extents_[element];
     }
     trace::Region region(std::uint32_t element) const {
-        std::size_t r = 0;
-        while (r + 1 < ranges_.size() && element >= ranges_[r + 1].first) ++r;
-        return ranges_[r].region;
+        return ranges_[spatial::range_at(ranges_, element)].region;
     }
     /// Calls use(element, address, bytes) for what each of `elements` reads, in their order.
     template <class Use>

@@ -20,6 +20,13 @@ struct ElementRange {
     friend bool operator==(const ElementRange&, const ElementRange&) = default;
 };
 
+/// Which of ascending `ranges` an element of theirs lies in.
+inline std::size_t range_at(std::span<const ElementRange> ranges, std::uint32_t element) {
+    std::size_t r = 0;
+    while (r + 1 < ranges.size() && element >= ranges[r + 1].first) ++r;
+    return r;
+}
+
 /// Why a walk cannot be decoded.
 enum class WalkFault : std::uint8_t { none, ends_early, bytes_left_over, enters_missing_child };
 

@@ -66,10 +66,7 @@ struct Sizes {
     std::uint32_t node_bytes;
 
     trace::Region region(std::uint32_t element) const {
-        const std::span<const spatial::ElementRange> ranges = structure.ranges();
-        std::size_t r = 0;
-        while (r + 1 < ranges.size() && element >= ranges[r + 1].first) ++r;
-        return ranges[r].region;
+        return structure.ranges()[spatial::range_at(structure.ranges(), element)].region;
     }
     std::uint32_t taken(std::uint32_t element) const {
         if (const std::span<const std::uint32_t> own = structure.own_bytes(); !own.empty())

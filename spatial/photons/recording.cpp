@@ -3,6 +3,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <concepts>
+#include <type_traits>
 
 #include "spatial/list_walk.h"
 #include "spatial/photons/found_walk.h"
@@ -53,44 +55,25 @@ Recording recorded(const Tree& tree, std::span<const Vec3> points, std::uint32_t
     return all;
 }
 
-/// Walk: what listens where nobody asks which photons were found.
-template <class Walk, class Tree>
-Recording recorded_by(const Tree& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
-                      bool tells_found) {
-    return tells_found ? recorded<BasicFoundRecorder<Walk>>(tree, points, k, radius)
-                       : recorded<Walk>(tree, points, k, radius);
-}
+/// What listens where nobody asks which photons were found: decisions give a kd-tree's visits back, those of
+/// all else are listed.
+template <class Tree>
+using RecorderOf = std::conditional_t<std::same_as<Tree, PhotonKd> || std::same_as<Tree, BucketKd>,
+                                      WalkRecorder, ListWalkRecorder>;
 
 }  // namespace
 
-Recording record_walks(const PhotonKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
+template <class Tree>
+Recording record_walks(const Tree& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
                        bool tells_found) {
-    return recorded_by<WalkRecorder>(tree, points, k, radius, tells_found);
+    return tells_found ? recorded<BasicFoundRecorder<RecorderOf<Tree>>>(tree, points, k, radius)
+                       : recorded<RecorderOf<Tree>>(tree, points, k, radius);
 }
-
-Recording record_walks(const BucketKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
-                       bool tells_found) {
-    return recorded_by<WalkRecorder>(tree, points, k, radius, tells_found);
-}
-
-Recording record_walks(const PhotonGrid& grid, std::span<const Vec3> points, std::uint32_t k, float radius,
-                       bool tells_found) {
-    return recorded_by<ListWalkRecorder>(grid, points, k, radius, tells_found);
-}
-
-Recording record_walks(const HashedGrid& grid, std::span<const Vec3> points, std::uint32_t k, float radius,
-                       bool tells_found) {
-    return recorded_by<ListWalkRecorder>(grid, points, k, radius, tells_found);
-}
-
-Recording record_walks(const PhotonOctree& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
-                       bool tells_found) {
-    return recorded_by<ListWalkRecorder>(tree, points, k, radius, tells_found);
-}
-
-Recording record_walks(const PhotonBvh& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
-                       bool tells_found) {
-    return recorded_by<ListWalkRecorder>(tree, points, k, radius, tells_found);
-}
+template Recording record_walks(const PhotonKd&, std::span<const Vec3>, std::uint32_t, float, bool);
+template Recording record_walks(const BucketKd&, std::span<const Vec3>, std::uint32_t, float, bool);
+template Recording record_walks(const PhotonGrid&, std::span<const Vec3>, std::uint32_t, float, bool);
+template Recording record_walks(const HashedGrid&, std::span<const Vec3>, std::uint32_t, float, bool);
+template Recording record_walks(const PhotonOctree&, std::span<const Vec3>, std::uint32_t, float, bool);
+template Recording record_walks(const PhotonBvh&, std::span<const Vec3>, std::uint32_t, float, bool);
 
 }  // namespace regather::spatial

@@ -24,17 +24,9 @@ struct Recording {
 /// The walks of the `k` nearest photons within `radius` [scene units] of each point; a point that is not
 /// finite has an empty walk. `tells_found`: walks as found_walk.h has them, and visited_nodes counts an
 /// element for each photon found. The same on any number of threads.
-Recording record_walks(const PhotonKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
-                       bool tells_found = false);
-Recording record_walks(const BucketKd& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
-                       bool tells_found = false);
-Recording record_walks(const PhotonGrid& grid, std::span<const Vec3> points, std::uint32_t k, float radius,
-                       bool tells_found = false);
-Recording record_walks(const HashedGrid& grid, std::span<const Vec3> points, std::uint32_t k, float radius,
-                       bool tells_found = false);
-Recording record_walks(const PhotonOctree& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
-                       bool tells_found = false);
-Recording record_walks(const PhotonBvh& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
+/// Tree: PhotonKd, BucketKd, PhotonGrid, HashedGrid, PhotonOctree or PhotonBvh.
+template <class Tree>
+Recording record_walks(const Tree& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
                        bool tells_found = false);
 
 }  // namespace regather::spatial

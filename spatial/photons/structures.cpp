@@ -34,8 +34,7 @@ bool tells_found(const trace::Parameters& given) {
     return given.knows("found") && given.count("found") == 1;
 }
 
-// --- the left-balanced tree
-// ---------------------------------------------------------------------------------
+// The left-balanced tree.
 
 template <class Tree>
 class HeapSearch final : public PhotonSearch {
@@ -82,8 +81,7 @@ std::shared_ptr<const Structure> open_heap(trace::TraceReader& trace) {
     return std::make_shared<Tree>(static_cast<std::uint32_t>(trace.column<Photon>("photon").size()));
 }
 
-// --- kd-trees with buckets
-// ----------------------------------------------------------------------------------
+// Kd-trees with buckets.
 
 class BucketSearch final : public PhotonSearch {
 public:
