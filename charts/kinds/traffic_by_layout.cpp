@@ -16,6 +16,12 @@ constexpr double line_pixels = 36;  // of a structure and its layout, whose name
 constexpr double name_width = 400;
 constexpr double marks_at = 0.3, floor_from = 0.1, floor_to = 0.5;  // of a line's height
 
+/// Marks have no lines whose dashes tell an ordering's curves apart: every second one's is hollow.
+int marker_of(const Curve& curve) {
+    const bool filled = curve.marker >= 5 && curve.marker % 2 == 1;  // gnuplot: one less is hollow
+    return curve.marker - (filled && curve.variant % 2 == 1 ? 1 : 0);
+}
+
 struct Place {
     std::string structure, layout;
     std::vector<results::Row> rows;
@@ -60,6 +66,7 @@ Chart traffic_by_layout(const ChartKind& kind, const results::Rows& rows, const 
             Line line = line_of(curve);
             line.label = once(curve.label);
             line.form = Line::Form::points;
+            line.marker = marker_of(curve);
             line.points = {{static_cast<double>(*row.traffic_bytes), height}};
             values.push_back(line.points[0].x);
             panel.lines.push_back(std::move(line));

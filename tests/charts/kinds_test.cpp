@@ -81,6 +81,15 @@ TEST(TrafficByLayout, ALineAStructureAndLayoutWithItsFloor) {
     EXPECT_THAT(compose("traffic-by-layout", {}).skipped, HasSubstr("no row"));
 }
 
+TEST(TrafficByLayout, TellsAnOrderingInTilesFromTheWholeImage) {
+    std::vector<Row> rows = {made_row("hilbert", 16, {}, 5000), made_row("hilbert", {}, {}, 90),
+                             made_row("hilbert", 16, {}, 4000), made_row("hilbert", {}, {}, 70)};
+    for (std::size_t r = 2; r < 4; ++r) rows[r].layout = "depth-first-20";
+    const std::string text = script(compose("traffic-by-layout", only(rows)), Picture::svg);
+    for (const char* part : {"pt 7", "pt 6", "'Hilbert, 16×16 tiles'", "'Hilbert, whole image'"})
+        EXPECT_THAT(text, HasSubstr(part));
+}
+
 Row netted(std::string ordering, std::uint64_t cache, std::uint64_t buffered, std::uint64_t traffic,
            std::uint64_t buffers) {
     Row row = made_row(std::move(ordering), {}, {}, traffic);
