@@ -7,10 +7,19 @@
 
 namespace regather::trace {
 
-enum class Region : std::uint8_t { photons, reorder_buffer, other, nodes, photon_power, directory };
+enum class Region : std::uint8_t {
+    photons,
+    reorder_buffer,
+    other,
+    nodes,
+    photon_power,
+    directory,
+    triangles,
+    stack
+};
 
-inline constexpr std::array<std::string_view, 6> region_names{"photons", "reorder_buffer", "other",
-                                                              "nodes",   "photon_power",   "directory"};
+inline constexpr std::array<std::string_view, 8> region_names{
+    "photons", "reorder_buffer", "other", "nodes", "photon_power", "directory", "triangles", "stack"};
 inline constexpr std::size_t region_count = region_names.size();
 
 }  // namespace regather::trace
