@@ -11,6 +11,7 @@
 #include "reorder/leaf_sorted.h"
 #include "reorder/naive.h"
 #include "reorder/random.h"
+#include "reorder/ray_sorted.h"
 #include "reorder/shared_library.h"
 #include "reorder/strata.h"
 #include "reorder/tiled.h"
@@ -52,6 +53,8 @@ constexpr Parameter strata_hashed_parameters[] = {tile,  strata,  strata_order, 
 constexpr Parameter leaf_parameters[] = {optional_tile};
 constexpr Parameter file_parameters[] = {{"as", "keys", "what the file holds: keys | permutation"},
                                          {"xxh3", "", "checksum of its rows, 16 hexadecimal digits"}};
+constexpr Parameter origin_direction_parameters[] = {{"bits", "8", "of a coordinate of the key, 1 to 12"}};
+constexpr Parameter origin_end_parameters[] = {{"bits", "8", "of a coordinate of the key, 1 to 10"}};
 
 using Made = std::unique_ptr<Ordering>;
 
@@ -124,6 +127,11 @@ Made make_leaf(Parameters& given) {
         LeafSortedConfig{.column = column, .tile = given.given_count("tile")});
 }
 
+template <RayKey key>
+Made make_ray(Parameters& given) {
+    return std::make_unique<RaySorted>(RaySortedConfig{.key = key, .bits = given.count("bits")});
+}
+
 constexpr Entry entries[] = {
     {"naive", "capture order: pixels in row order", {}, make_naive},
     {"random", "random order, the worst case", random_parameters, make_random},
@@ -143,6 +151,12 @@ constexpr Entry entries[] = {
      make_leaf<LeafColumn::kd>},
     {"bvh-leaf", "sorted by the leaf of the BVH that the gather ray ended in", leaf_parameters,
      make_leaf<LeafColumn::bvh>},
+    {"origin-direction", "rays sorted by origin and direction", origin_direction_parameters,
+     make_ray<RayKey::origin_direction>},
+    {"origin-end", "rays sorted by origin and end point", origin_end_parameters,
+     make_ray<RayKey::origin_end>},
+    {"origin-guess", "rays sorted by origin and the end that a coarse model gives", origin_end_parameters,
+     make_ray<RayKey::origin_guess>},
 };
 
 ParsedOrdering load_library(std::string_view path, std::string_view parameters) {

@@ -30,14 +30,17 @@ inline constexpr std::uint64_t pixel_state_bytes = 48;
 /// Which columns an ordering reads besides position and pixel.
 struct Reads {
     bool direction = false, leaf_kd = false, leaf_bvh = false, stratum = false;
-    bool captured = false;  ///< Whichever were captured: what is missing is empty.
-    bool rows = false;      ///< Queries by their number in the capture: a part of them has no order.
+    bool end = false, guess = false;  ///< Of a ray.
+    bool captured = false;            ///< Whichever were captured: what is missing is empty.
+    bool rows = false;  ///< Queries by their number in the capture: a part of them has no order.
 
     Reads& operator|=(const Reads& other) {
         direction |= other.direction;
         leaf_kd |= other.leaf_kd;
         leaf_bvh |= other.leaf_bvh;
         stratum |= other.stratum;
+        end |= other.end;
+        guess |= other.guess;
         captured |= other.captured;
         rows |= other.rows;
         return *this;
@@ -53,8 +56,10 @@ struct Workload {
     std::span<const std::uint32_t> leaf_kd;   ///< Leaf label: kd-tree over the triangles.
     std::span<const std::uint32_t> leaf_bvh;  ///< Leaf label: BVH over the triangles.
     std::span<const std::uint32_t> stratum =
-        {};          ///< Drawn from: rows x 65536 + columns, in 65536ths of the unit square's edges.
-    Bounds3 bounds;  ///< Of all finite positions.
+        {};  ///< Drawn from: rows x 65536 + columns, in 65536ths of the unit square's edges.
+    std::span<const Vec3> end = {};                   ///< Where a ray ends [scene units].
+    std::span<const Vec3> guess = {};                 ///< Where it would end in a coarse model.
+    Bounds3 bounds;                                   ///< Of all finite positions.
     std::uint32_t image_width = 1, image_height = 1;  ///< [pixels]
     std::filesystem::path folder = {};                ///< Of the columns' files, for messages.
 };
@@ -69,7 +74,7 @@ struct Cost {
     std::uint64_t buffered_bytes = 0;  ///< Peak bytes of queries or pixel state held back.
     std::uint64_t reorder_bytes =
         0;                          ///< Bytes written to and read from memory outside the chip because of it.
-    std::uint64_t recast_rays = 0;  ///< Eye rays cast again.
+    std::uint64_t recast_rays = 0;  ///< Eye rays cast again; rays cast through a coarse model.
     std::uint64_t stalls = 0;       ///< Times the generation of queries had to wait for a full bucket.
 };
 

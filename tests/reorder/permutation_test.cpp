@@ -66,6 +66,8 @@ TEST_P(EveryOrdering, DoesNotDependOnThreads) {
         queries.leaf_kd.push_back(static_cast<std::uint32_t>(scrambled(i) % 5000));
         queries.leaf_bvh.push_back(static_cast<std::uint32_t>(scrambled(i) % 90));
         queries.stratum.push_back(static_cast<std::uint32_t>(scrambled(i)));
+        queries.end.push_back({scrambled_unit(7 * i), scrambled_unit(7 * i + 1), scrambled_unit(7 * i + 2)});
+        queries.guess.push_back(queries.end.back());
     }
     const std::unique_ptr<Ordering> ordering = make_ordering(GetParam());
     const auto run = [&](std::size_t threads) {
@@ -87,6 +89,8 @@ TEST_P(EveryOrdering, WorksOnNoneOneAndCoincidentQueries) {
         queries.leaf_kd.assign(count, 9);
         queries.leaf_bvh.assign(count, 9);
         queries.stratum.assign(count, 9);
+        queries.end.assign(count, {2, 5, 4});
+        queries.guess.assign(count, {2, 6, 4});
         const auto permutation = order(*ordering, queries.workload()).permutation;
         ASSERT_EQ(permutation.size(), count);
         if (GetParam().starts_with("random")) continue;
@@ -126,6 +130,11 @@ TEST(Order, NamesAMissingColumnOnlyWhenTheOrderingReadsIt) {
               "usage: the ordering reads column stratum, which this capture does not have");
     EXPECT_EQ(refusal("kd-leaf", bare),
               "usage: the ordering reads column leaf_kd, which this capture does not have");
+    EXPECT_EQ(refusal("origin-direction", bare), direction);
+    EXPECT_EQ(refusal("origin-end", bare),
+              "usage: the ordering reads column end, which this capture does not have");
+    EXPECT_EQ(refusal("origin-guess", bare),
+              "usage: the ordering reads column guess, which this capture does not have");
     EXPECT_EQ(refusal("bvh-leaf", bare),
               "usage: the ordering reads column leaf_bvh, which this capture does not have");
 }

@@ -10,7 +10,7 @@
 namespace regather::reorder {
 
 struct Queries {
-    std::vector<Vec3> position, direction;
+    std::vector<Vec3> position, direction, end, guess;
     std::vector<std::uint32_t> pixel, leaf_kd, leaf_bvh, stratum;
     std::uint32_t width = 1, height = 1;
 
@@ -21,6 +21,8 @@ struct Queries {
                 .leaf_kd = leaf_kd,
                 .leaf_bvh = leaf_bvh,
                 .stratum = stratum,
+                .end = end,
+                .guess = guess,
                 .bounds = trace::bounds_of(position),
                 .image_width = width,
                 .image_height = height};
@@ -79,6 +81,8 @@ inline Queries any_queries() {
         queries.leaf_kd.push_back(static_cast<std::uint32_t>(scrambled(point)));
         queries.leaf_bvh.push_back(static_cast<std::uint32_t>(scrambled(point) % 7));
         queries.stratum.push_back(static_cast<std::uint32_t>(scrambled(seed + 11 * i)));
+        queries.end.push_back(dice == 6 ? Vec3{odd[i % 3], 0, 0} : position * scrambled_unit(seed + 11 * i));
+        queries.guess.push_back(queries.end.back() * 2);
     }
     return queries;
 }

@@ -50,6 +50,8 @@ struct Traced {
                 .leaf_kd = leaves,
                 .leaf_bvh = leaves,
                 .stratum = leaves,
+                .end = points,
+                .guess = points,
                 .bounds = trace::bounds_of(points),
                 .image_width = width,
                 .image_height = width};
