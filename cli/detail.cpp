@@ -83,7 +83,8 @@ void add_detail(Command& command) {
     command.list("--cache", options->caches, "caches as SIZE:LINE:WAYS; WAYS may be full");
     command.option(
         "--layout", options->layout,
-        "where each node lies in memory, as ORDER-RECORD:parameter=value,...; see regather layouts");
+        "where each node lies in memory, as ORDER-RECORD:parameter=value,...; see regather layouts. Without: "
+        "heap-20, for rays depth-first-48");
     command.option("--onchip", options->onchip, "bytes that the chip can buffer");
     command.option("--slices", options->slices, {1, std::uint64_t{1} << 32},
                    "slices of the run in the timeline");

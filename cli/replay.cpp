@@ -82,7 +82,7 @@ void add_replay(Command& command) {
     command.list(
         "--layout", options->layouts,
         "where each node lies in memory, as ORDER-RECORD:parameter=value,...; see regather layouts. heap-20, "
-        "of brought walks heap-own or, with addresses, given-own");
+        "for rays depth-first-48, of brought walks heap-own or, with addresses, given-own");
     command.option(
         "--machine", options->machines,
         "in place of --cache: memory systems, by name (see regather machines) or file, with commas");

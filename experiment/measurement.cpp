@@ -112,6 +112,8 @@ std::vector<results::Row> Measurement::rows(const reorder::ParsedOrdering& parse
         row.parameters = spec.text;
         row.structure = trace_.info().structure;
         if (trace_.info().map != "global") row.structure += " " + trace_.info().map;
+        if (const trace::Json* const kind = trace_.info().parameters.find("rays"); kind && kind->text())
+            row.structure += fmt::format(" {} rays", trace::shown(*kind->text()));
         row.layout = layout_.name();
         row.policy = "lru";
         row.cache_bytes = traffic.config.size_bytes;

@@ -47,7 +47,7 @@ public:
     /// for the one before is forgotten. default_layout() at first.
     void lay_out(std::string_view spec);
     void lay_out(replay::Layout layout);
-    /// Of the photons, as the structure counts its records.
+    /// Of the photons, as the structure counts its records; of rays none.
     std::vector<trace::Vec3> record_positions() const { return spatial::record_positions(trace_); }
     reorder::Ordered order(const reorder::Ordering& ordering) const;
     /// What the ordering's buffers do in memory; `ordered` is its order().

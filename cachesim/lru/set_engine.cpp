@@ -10,7 +10,7 @@ namespace regather::cachesim {
 
 namespace {
 
-constexpr std::uint32_t min_set_bits = 4;  // so that the tag of any 64-bit line is less than `empty`
+constexpr std::uint32_t min_set_bits = 5;  // so that the tag of any 64-bit line is less than `empty`
 constexpr std::uint32_t max_ways = 32;
 static_assert(~std::uint64_t{0} >> min_set_bits < TagFormat<std::uint64_t>::empty);
 

@@ -11,7 +11,7 @@
 
 namespace regather::cachesim {
 
-inline constexpr unsigned state_bits = 3;
+inline constexpr unsigned state_bits = 4;
 static_assert(trace::region_count < 1u << state_bits);
 
 /// T: std::uint32_t or std::uint64_t.

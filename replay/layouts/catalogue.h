@@ -29,21 +29,34 @@ struct PhotonRecord {
 /// The order of elements at addresses that were brought, and the record of elements that say their bytes.
 inline constexpr std::string_view given_order = "given", own_record = "own";
 std::span<const PhotonRecord> photon_records();
+
+/// A triangle in memory, of a structure that rays are cast through.
+struct TriangleRecord {
+    std::string_view name, summary;
+    std::uint32_t bytes;
+};
+std::span<const TriangleRecord> triangle_records();
+/// An entry of a ray's stack: a child, and how far ahead the ray enters it.
+inline constexpr std::uint32_t stack_entry_bytes = 8;
+
 std::span<const trace::Parameter> layout_parameters();
 
 /// The layout that a spec names. The regions of a structure follow one another in the order of its ranges,
 /// each from a multiple of 4096 on, the first from 0; what photons have apart lies in the order of the
 /// photons. Parameters: `line` [bytes], a power of two, for clusters (128); `top`, so many levels from the
-/// root are kept on chip and read nothing (0). Throws trace::UsageError for an unknown word (with the nearest
-/// and all known ones), a value out of range, a record or an order that does not suit the structure, and
-/// addresses that are more than most_layout_bytes apart. `positions` of the records, by number: what orders
+/// root are kept on chip and read nothing (0); `node` [bytes] of an inner node. A structure for rays has
+/// records of triangles, and nodes of what their children's boxes take (spatial::RayTree::node_bytes()) or
+/// more. Throws trace::UsageError for an unknown word (with the nearest and all known ones), a value out of
+/// range, a record or an order that does not suit the structure, and addresses that are more than
+/// most_layout_bytes apart. `positions` of the records, by number: what orders
 /// along a curve want; without, those are refused.
 Layout make_layout(std::string_view spec, const spatial::Structure& structure,
                    std::span<const trace::Vec3> positions = {});
 inline constexpr std::uint64_t most_layout_bytes = std::uint64_t{1} << 34;
 
-/// What suits a structure where nothing is asked for: heap-20; of elements that say their bytes heap-own, or
-/// given-own where they say their addresses, too.
+/// What suits a structure where nothing is asked for: heap-20, the paper's; of a structure for rays
+/// depth-first-48; of elements that say their bytes heap-own, or given-own where they say their addresses,
+/// too.
 std::string default_layout(const spatial::Structure& structure);
 
 }  // namespace regather::replay

@@ -62,7 +62,7 @@ public:
     /// What a node takes at least with the boxes of its children. Planes as floats, and a number for each
     /// child: 64, 128 and 256 bytes for 2, 4 and 8 children. Quantised: 32, 64 and 80 (Ylitie et al. 2017,
     /// figure 2, for 8).
-    std::uint32_t node_bytes() const;
+    std::uint32_t node_bytes() const override;
 
 private:
     std::string name_;
