@@ -53,8 +53,10 @@ constexpr Parameter strata_hashed_parameters[] = {tile,  strata,  strata_order, 
 constexpr Parameter leaf_parameters[] = {optional_tile};
 constexpr Parameter file_parameters[] = {{"as", "keys", "what the file holds: keys | permutation"},
                                          {"xxh3", "", "checksum of its rows, 16 hexadecimal digits"}};
-constexpr Parameter origin_direction_parameters[] = {{"bits", "8", "of a coordinate of the key, 1 to 12"}};
-constexpr Parameter origin_end_parameters[] = {{"bits", "8", "of a coordinate of the key, 1 to 10"}};
+constexpr Parameter origin_direction_parameters[] = {optional_tile,
+                                                     {"bits", "8", "of a coordinate of the key, 1 to 12"}};
+constexpr Parameter origin_end_parameters[] = {optional_tile,
+                                               {"bits", "8", "of a coordinate of the key, 1 to 10"}};
 
 using Made = std::unique_ptr<Ordering>;
 
@@ -129,7 +131,8 @@ Made make_leaf(Parameters& given) {
 
 template <RayKey key>
 Made make_ray(Parameters& given) {
-    return std::make_unique<RaySorted>(RaySortedConfig{.key = key, .bits = given.count("bits")});
+    return std::make_unique<RaySorted>(
+        RaySortedConfig{.key = key, .tile = given.given_count("tile"), .bits = given.count("bits")});
 }
 
 constexpr Entry entries[] = {
