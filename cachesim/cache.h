@@ -10,7 +10,7 @@
 
 namespace regather::cachesim {
 
-enum class Line : std::uint64_t {};  ///< address / line_bytes; arithmetic needs a cast.
+enum class Line : std::uint64_t {};  ///< Of 64-bit addresses: address / line_bytes; arithmetic needs a cast.
 enum class Access : std::uint8_t { read, write };
 
 inline constexpr std::uint32_t fully_associative = 0;

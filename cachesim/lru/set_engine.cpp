@@ -10,9 +10,10 @@ namespace regather::cachesim {
 
 namespace {
 
-constexpr std::uint32_t min_set_bits = 5;  // so that the tag of any 64-bit line is less than `empty`
-constexpr std::uint32_t max_ways = 32;
-static_assert(~std::uint64_t{0} >> min_set_bits < TagFormat<std::uint64_t>::empty);
+// A way of all sets has at least as many bytes: then the tag of any 64-bit address is less than `empty`.
+constexpr std::uint64_t min_way_bytes = 32;
+constexpr std::uint32_t min_sets = 16, max_ways = 32;
+static_assert(~std::uint64_t{0} / min_way_bytes < TagFormat<std::uint64_t>::empty);
 
 class SetEngine final : public LruCache::Engine {
 public:
@@ -89,7 +90,8 @@ private:
 }  // namespace
 
 bool set_engine_serves(const CacheConfig& config) {
-    return config.ways != fully_associative && config.ways <= max_ways && config.sets() >= 1u << min_set_bits;
+    return config.ways != fully_associative && config.ways <= max_ways && config.sets() >= min_sets &&
+           config.sets() * config.line_bytes >= min_way_bytes;
 }
 
 std::unique_ptr<LruCache::Engine> make_set_engine(const CacheConfig& config) {

@@ -138,7 +138,7 @@ TEST(LruCache, NoLineHitsInAnEmptyCache) {
     for (const std::uint32_t ways : {1u, 3u, 8u, 16u, 32u, fully_associative})
         for (int shift = 0; shift < 64; ++shift)
             for (const std::uint64_t below : {0, 1, 2}) {
-                const std::uint64_t sets = 16, line = (~std::uint64_t{0} >> shift) - below;
+                const std::uint64_t sets = 32, line = (~std::uint64_t{0} >> shift) - below;
                 LruCache cache({sets * (ways == fully_associative ? 1 : ways), 1, ways});
                 cache.access(std::vector{Line{line}, Line{line}}, Region::photons);
                 ASSERT_EQ(cache.total(), (CacheStats{2, 1, 0})) << line << ' ' << ways;
@@ -146,7 +146,7 @@ TEST(LruCache, NoLineHitsInAnEmptyCache) {
 }
 
 TEST(LruCache, LinesThatDifferInHighBitsOnlyAreDifferent) {
-    LruCache cache({16 * 8, 1, 8});
+    LruCache cache({32 * 8, 1, 8});
     for (int bit = 63; bit > 56; --bit)
         cache.access(std::vector{Line{std::uint64_t{1} << bit}}, Region::photons);
     EXPECT_EQ(cache.total().misses, 7u);
@@ -157,20 +157,20 @@ TEST(LruCache, LinesThatDifferInHighBitsOnlyAreDifferent) {
 
 /// A line of a high number makes the cache keep wider tags: what was held, its order and who wrote it stay.
 TEST(LruCache, ALargeLineNumberChangesNothingForTheLinesHeld) {
-    LruCache cache({16 * 4, 1, 4});
+    LruCache cache({32 * 4, 1, 4});
     const auto hits = [&](std::uint64_t line) {
         const std::uint64_t before = cache.total().misses;
-        cache.access(std::vector{Line{16 * line}}, Region::photons);
+        cache.access(std::vector{Line{32 * line}}, Region::photons);
         return cache.total().misses == before;
     };
-    cache.access(std::vector{Line{16}}, Region::reorder_buffer, Access::write);
+    cache.access(std::vector{Line{32}}, Region::reorder_buffer, Access::write);
     for (const std::uint64_t line : {2, 3}) hits(line);  // 3 2 1*  -
-    EXPECT_FALSE(hits(std::uint64_t{1} << 59));          // h 3 2 1*
+    EXPECT_FALSE(hits(std::uint64_t{1} << 58));          // h 3 2 1*
     EXPECT_TRUE(hits(2));                                // 2 h 3 1*
     EXPECT_FALSE(hits(4));                               // 4 2 h 3
     EXPECT_EQ(cache.stats(Region::reorder_buffer).writebacks, 1u);
     EXPECT_TRUE(hits(3));                       // 3 4 2 h
-    EXPECT_TRUE(hits(std::uint64_t{1} << 59));  // h 3 4 2
+    EXPECT_TRUE(hits(std::uint64_t{1} << 58));  // h 3 4 2
     EXPECT_FALSE(hits(0));                      // 0 h 3 4
     EXPECT_FALSE(hits(2));                      // 2 0 h 3
 }
