@@ -36,8 +36,12 @@ constexpr Style known[] = {
     {"hilbert", "Hilbert", "#0072b2", 7, tiles},
     {"kd-leaf", "kd-tree leaf", "#882255", 4, tiles},
     {"bvh-leaf", "BVH leaf", "#b0a000", 6, tiles},
+    // Of rays, which have no strata: their marks.
+    {"origin-direction", "Origin + direction", "#aa4499", 12, tiles},
+    {"origin-guess", "Origin + guessed end", "#117733", 14, tiles},
+    {"origin-end", "Origin + end", "#661100", 10, tiles},
 };
-constexpr std::string_view spare_colours[] = {"#aa4499", "#661100", "#6699cc", "#117733"};
+constexpr std::string_view spare_colours[] = {"#6699cc", "#999933", "#ddcc77", "#888888"};
 
 /// What, besides ordering, tile and bins, tells two curves apart.
 constexpr std::size_t trait_count = 7;

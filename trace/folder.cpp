@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr ColumnEntry table[] = {
     {"photon", "photon", "see docs/trace_format.md",
      "photons in heap order of the left-balanced kd-tree; split axis and surface normal are in the flags",
-     column_type<Photon>, false},
+     column_type<Photon>, true},
     {"tree_child", "tree_child", "element",
      "the children of each inner node of a tree with leaves, as many rows a node as it can have, 0: none; "
      "elements are the inner nodes, then the leaves",
@@ -265,10 +265,7 @@ TraceReader::TraceReader(fs::path folder) : folder_(std::move(folder)) {
             root[total].fail(fmt::format("{}", rows), fmt::format("{} as the rows of {}", found, name));
     };
     expect_rows("query_position", "queries", info_.queries);
-    if (digests_.contains("photon"))
-        expect_rows("photon", "photons", info_.photons);
-    else if (info_.photons != 0)
-        root["photons"].fail(fmt::format("{}", info_.photons), "0, as there is no column photon");
+    expect_rows("photon", "photons", info_.photons);
     for (const auto& [name, digest] : digests_) {
         const fs::path path = column_path(folder_, name);
         MappedColumn column(path, column_entry(name).type());

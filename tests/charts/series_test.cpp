@@ -118,20 +118,28 @@ TEST(Series, ARepeatedRowIsOneAndAContradictionIsRefused) {
 }
 
 TEST(Series, NoTwoOrderingsLookAlike) {
-    std::vector<Row> known;
-    for (const char* ordering :
-         {"random", "naive", "tiled", "direction-binned", "direction-binned+hashed", "hashed", "swizzle",
-          "morton", "hilbert", "kd-leaf", "bvh-leaf", "strata", "strata+hashed"})
-        known.push_back(made_row(ordering, {}, {}, 1));
-    std::set<std::string> colours, names;
-    std::set<int> markers;
-    for (const Curve& curve : curves(known, Along::cache, {})) {
-        EXPECT_NE(curve.label, curve.rows.front()->ordering);  // it has a name for people
-        EXPECT_TRUE(names.insert(curve.label).second) << curve.label;
-        EXPECT_TRUE(colours.insert(curve.colour).second) << curve.label;
-        EXPECT_TRUE(markers.insert(curve.marker).second) << curve.label;
-    }
-    EXPECT_EQ(names.size(), known.size());
+    const auto look_apart = [](const std::vector<std::string>& orderings) {
+        std::vector<Row> known;
+        for (const std::string& ordering : orderings) known.push_back(made_row(ordering, {}, {}, 1));
+        std::set<std::string> colours, names;
+        std::set<int> markers;
+        for (const Curve& curve : curves(known, Along::cache, {})) {
+            EXPECT_NE(curve.label, curve.rows.front()->ordering);  // it has a name for people
+            EXPECT_TRUE(names.insert(curve.label).second) << curve.label;
+            EXPECT_TRUE(colours.insert(curve.colour).second) << curve.label;
+            EXPECT_TRUE(markers.insert(curve.marker).second) << curve.label;
+        }
+        EXPECT_EQ(names.size(), known.size());
+        return colours;
+    };
+    std::vector<std::string> of_both{"random",  "naive",   "tiled",   "direction-binned",
+                                     "hashed",  "swizzle", "morton",  "direction-binned+hashed",
+                                     "hilbert", "kd-leaf", "bvh-leaf"};
+    std::vector<std::string> of_photons = of_both, of_rays = of_both;
+    for (const char* name : {"strata", "strata+hashed"}) of_photons.push_back(name);
+    for (const char* name : {"origin-direction", "origin-guess", "origin-end"}) of_rays.push_back(name);
+    std::set<std::string> colours = look_apart(of_photons);
+    colours.merge(look_apart(of_rays));
     const std::vector<Row> strangers = {made_row("mine", {}, {}, 1), made_row("yours", {}, {}, 2)};
     const auto all = curves(strangers, Along::tile, {});
     EXPECT_THAT(labels(all), ElementsAre("mine", "yours"));

@@ -147,7 +147,7 @@ TEST(Rays, WhatDoesNotFitIsRefused) {
     const fs::path rays = walked(scratch, "eye", "bvh-4:leaf=3");
     expect_refused(bad_data, {"walk", rays.string(), "--rays", "eye", "-o", to},
                    {"parameters.scene_checksum"});
-    expect_refused(bad_data, {"walk", rays.string(), "-o", to}, {"radius"});
+    expect_refused(bad_data, {"walk", rays.string(), "-o", to}, {"photon.npy", "rays are not searches"});
     expect_refused(bad_data, {"race", rays.string(), "--order", "naive"}, {"radius"});
     const auto replay = [&](const char* layout) {
         return std::vector<std::string>{"replay", rays.string(), "--order", "naive", "--layout", layout};
@@ -175,7 +175,8 @@ TEST(Rays, ADamagedTraceIsRefused) {
     refused("bvh-4:leaf=3", "bvh-5:leaf=3", {"unknown \"bvh-5\""});
     refused("\"rays\": \"eye\"", "\"rays\": \"all\"", {"parameters.rays", "\"all\"", "\"gather\""});
     refused("\"structure_version\": 1", "\"structure_version\": 2", {"structure_version: found 2"});
-    refused("\"photons\": 0", "\"photons\": 3", {"photons: found 3", "no column photon"});
+    refused("\"photons\": 0", "\"photons\": 3", {"photons: found 3", "rows of photon"});
+    refused("\"k\": 0", "\"k\": 5", {"found no photon"});
 }
 
 }  // namespace

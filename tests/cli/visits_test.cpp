@@ -86,7 +86,12 @@ TEST_F(Visits, OrderingsLayoutsCachesAndChartsRunOnThem) {
     expect_done(words({"--width", "2"}));
     expect_done({"info", trace_.string(), "--verify"});
     std::vector<std::string> all{"--order"};
-    for (const reorder::Entry& entry : reorder::catalogue()) all.emplace_back(entry.name);
+    std::size_t orderings = 0;
+    for (const reorder::Entry& entry : reorder::catalogue()) {
+        if (entry.name.starts_with("origin-")) continue;  // of rays
+        all.emplace_back(entry.name);
+        ++orderings;
+    }
     all.emplace_back("--layout");
     std::size_t layouts = 0;
     for (const replay::LayoutOrder& order : replay::layout_orders()) {
@@ -99,7 +104,7 @@ TEST_F(Visits, OrderingsLayoutsCachesAndChartsRunOnThem) {
                                          "--classes", "--buffers", "--csv", csv.string()} +
                 all);
     const std::vector<results::Row> found = results::read_csv(csv);
-    EXPECT_EQ(found.size(), 2 * layouts * reorder::catalogue().size());
+    EXPECT_EQ(found.size(), 2 * layouts * orderings);
     for (const results::Row& row : found) {
         EXPECT_EQ(row.raw_bytes, 268u) << row.layout;
         EXPECT_GE(row.traffic_bytes, row.compulsory_bytes);
