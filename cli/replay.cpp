@@ -50,7 +50,7 @@ void run(const Options& options, const Console& console) {
         csv = results::to_csv(rows);
         table = results::traffic_text(rows);
     } else {
-        const auto rows = experiment::through_machines(measurement, orderings, machines, trace.info().scene,
+        const auto rows = experiment::through_machines(measurement, options.layouts, orderings, machines,
                                                        progress.listener());
         csv = results::to_csv<results::MachineRow>(rows);
         table = results::text_of(results::table_of<results::MachineRow>(rows));
@@ -96,7 +96,7 @@ void add_replay(Command& command) {
     command.option("--onchip", options->onchip, "bytes that the chip can buffer");
     command.option("--csv", options->csv, "write the rows here, and X.json beside X.csv");
     command.flag("--force", options->force, "overwrite the CSV");
-    command.conflict("--machine", {"--cache", "--layout", "--classes", "--buffers", "--sample", "--seed"});
+    command.conflict("--machine", {"--cache", "--classes", "--buffers", "--sample", "--seed"});
     command.conflict("--sample", {"--classes", "--buffers"});
     command.needs("--seed", {"--sample"});
     command.needs("--force", {"--csv"});

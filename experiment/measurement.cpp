@@ -87,6 +87,14 @@ void Measurement::through(const reorder::Ordered& ordered, std::span<cachesim::H
     for (cachesim::Hierarchy& system : systems) system.flush();
 }
 
+std::string Measurement::structure_name() const {
+    std::string name = trace_.info().structure;
+    if (trace_.info().map != "global") name += " " + trace_.info().map;
+    if (const trace::Json* const kind = trace_.info().parameters.find("rays"); kind && kind->text())
+        name += fmt::format(" {} rays", trace::shown(*kind->text()));
+    return name;
+}
+
 std::vector<results::Row> Measurement::rows(const reorder::ParsedOrdering& parsed,
                                             const reorder::Ordered& ordered,
                                             std::span<const cachesim::CacheConfig> caches,
@@ -110,10 +118,7 @@ std::vector<results::Row> Measurement::rows(const reorder::ParsedOrdering& parse
         if (spec.tile) row.tile = *spec.tile;
         if (spec.bins) row.bins = *spec.bins;
         row.parameters = spec.text;
-        row.structure = trace_.info().structure;
-        if (trace_.info().map != "global") row.structure += " " + trace_.info().map;
-        if (const trace::Json* const kind = trace_.info().parameters.find("rays"); kind && kind->text())
-            row.structure += fmt::format(" {} rays", trace::shown(*kind->text()));
+        row.structure = structure_name();
         row.layout = layout_.name();
         row.policy = "lru";
         row.cache_bytes = traffic.config.size_bytes;

@@ -43,6 +43,9 @@ public:
     std::uint64_t queries() const { return walks_.queries(); }
     const replay::WalkStore& walks() const { return walks_; }
     const replay::Layout& layout() const { return layout_; }
+    const trace::TraceInfo& info() const { return trace_.info(); }
+    /// As rows say it: the spec, and what is searched where it is not the global photon map.
+    std::string structure_name() const;
     /// Another layout by its spec (replay/layouts/catalogue.h, also for errors); what was prepared and found
     /// for the one before is forgotten. default_layout() at first.
     void lay_out(std::string_view spec);

@@ -21,10 +21,11 @@ std::vector<results::Row> through_caches(Measurement& measurement, std::span<con
                                          std::span<const cachesim::CacheConfig> caches, const Method& method,
                                          const ProgressListener& progress);
 
-/// Ordering by ordering, machine by machine; `scene` is the trace's.
-std::vector<results::MachineRow> through_machines(const Measurement& measurement,
+/// Layout by layout, ordering by ordering, machine by machine; layouts and errors as through_caches().
+std::vector<results::MachineRow> through_machines(Measurement& measurement,
+                                                  std::span<const std::string> layouts,
                                                   std::span<const reorder::ParsedOrdering> orderings,
                                                   std::span<const cachesim::Machine> machines,
-                                                  const std::string& scene, const ProgressListener& progress);
+                                                  const ProgressListener& progress);
 
 }  // namespace regather::experiment

@@ -5,6 +5,8 @@ namespace {
 
 constexpr Column columns[] = {
     column<&MachineRow::scene>("scene"),
+    column<&MachineRow::structure>("structure"),
+    column<&MachineRow::layout>("layout"),
     column<&MachineRow::ordering>("ordering"),
     column<&MachineRow::parameters>("parameters"),
     column<&MachineRow::machine>("machine", needed),

@@ -153,7 +153,8 @@ private:
 
 }  // namespace
 
-BucketKd::BucketKd(std::span<const Photon> photons, const Config& config, std::string name) {
+BucketKd::BucketKd(std::span<const Photon> photons, const Config& config, std::string name)
+    : bounds_(config.bounds) {
     check_photons(photons);
     std::vector<Item> items(photons.size());
     trace::Bounds3 cell;

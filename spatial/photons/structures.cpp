@@ -24,8 +24,12 @@ namespace {
 
 constexpr std::string_view found_help = "1: walks tell which photons were found";
 constexpr trace::Parameter heap_parameters[] = {{"found", "0", found_help}};
-constexpr trace::Parameter bucket_parameters[] = {{"leaf", "8", "most photons of a leaf, 1 to 64"},
-                                                  {"found", "0", found_help}};
+constexpr trace::Parameter leaf{"leaf", "8", "most photons of a leaf, 1 to 64"};
+constexpr trace::Parameter bucket_parameters[] = {
+    leaf,
+    {"bounds", "0", "1: a subtree is passed over by its cell's distance, 0: by its plane's"},
+    {"found", "0", found_help}};
+constexpr trace::Parameter leaf_parameters[] = {leaf, {"found", "0", found_help}};
 
 constexpr trace::Parameter cell_parameters[] = {
     {"cell", "8", "photons of a cell on average, 1 to 64; see docs/structures.md"},
@@ -133,7 +137,8 @@ std::unique_ptr<PhotonSearch> build_buckets(std::span<const Photon> heap, const 
         heap,
         BucketKd::Config{.rule = rule,
                          .leaf_photons = given.count("leaf"),
-                         .radius = rule == SplitRule::voxel_volume ? expected_radius(heap, k, radius) : 0},
+                         .radius = rule == SplitRule::voxel_volume ? expected_radius(heap, k, radius) : 0,
+                         .bounds = given.count("bounds") == 1},
         tells_found(given), std::move(text));
 }
 
@@ -198,10 +203,10 @@ constexpr StructureEntry table[] = {
      cell_parameters, build_listed<PhotonGrid>, open_listed<PhotonGrid>},
     {"hashed-grid", "cells with photons in a hash table with open addressing, searched in shells", 1,
      cell_parameters, build_listed<HashedGrid>, open_listed<HashedGrid>},
-    {"octree", "octree of pointers over photons in Morton order, nearest octant first", 1, bucket_parameters,
+    {"octree", "octree of pointers over photons in Morton order, nearest octant first", 1, leaf_parameters,
      build_listed<PhotonOctree>, open_listed<PhotonOctree>},
     {"bvh", "bounding volume hierarchy, halved along the longest side; a node holds both children's boxes", 1,
-     bucket_parameters, build_listed<PhotonBvh>, open_listed<PhotonBvh>},
+     leaf_parameters, build_listed<PhotonBvh>, open_listed<PhotonBvh>},
     {brought_structure,
      "whatever another program has walked: elements and visits are columns (docs/bringing_walks.md)",
      1,
@@ -231,9 +236,9 @@ StructureSpec parse_structure(std::string_view spec) {
     std::string text(entry.name);
     for (const trace::Parameter& parameter : entry.parameters) {
         const std::uint32_t value = parameters.count(parameter.name);
-        const bool is_found = parameter.name == "found";
-        trace::require_range(entry.name, parameter.name, value, is_found ? 0 : 1, is_found ? 1 : 64);
-        if (is_found && value == 0) continue;  // as if there were no such parameter
+        const bool is_switch = parameter.name == "found" || parameter.name == "bounds";
+        trace::require_range(entry.name, parameter.name, value, is_switch ? 0 : 1, is_switch ? 1 : 64);
+        if (is_switch && value == 0) continue;  // as if there were no such parameter
         text += fmt::format("{}{}={}", text.size() == entry.name.size() ? ":" : ",", parameter.name, value);
     }
     return {&entry, std::move(parameters), std::move(text)};

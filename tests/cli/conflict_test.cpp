@@ -33,12 +33,8 @@ const std::vector<Conflict>& conflicts() {
             {capture, {"--caustic-photons", "0"}, {"--caustic-radius", "4"}},
             {capture, {"--caustic-photons", "0"}, {"--caustic-filter", "none"}},
         };
-        for (const Words& beside : std::vector<Words>{{"--cache", "1K:64:1"},
-                                                      {"--layout", "heap-32"},
-                                                      {"--classes"},
-                                                      {"--buffers"},
-                                                      {"--sample", "2"},
-                                                      {"--seed", "3"}})
+        for (const Words& beside : std::vector<Words>{
+                 {"--cache", "1K:64:1"}, {"--classes"}, {"--buffers"}, {"--sample", "2"}, {"--seed", "3"}})
             all.push_back({replay, {"--machine", "paper-128k"}, beside});
         for (const Words& beside : std::vector<Words>{{"--size", "1K"},
                                                       {"--line", "64"},

@@ -20,7 +20,8 @@ constexpr const char* toy = R"({
   "dram": {"channels": 1, "banks": 1, "row_bytes": 64, "burst_bytes": 64, "activate_pj": 100, "read_pj": 10, "write_pj": 1}
 })";
 constexpr const char* header =
-    "scene,ordering,parameters,machine,level,region,accesses,hits,misses,sector_misses,victim_hits,"
+    "scene,structure,layout,ordering,parameters,machine,level,region,accesses,hits,misses,sector_misses,"
+    "victim_hits,"
     "writebacks,clean_victims,writes_"
     "through,"
     "back_invalidations,prefetches,useful_prefetches,bytes_in,bytes_out,bursts_read,bursts_written,row_hits,"
@@ -31,9 +32,9 @@ TEST(MachineCommand, WritesARowForEachLevelAndOneForTheDram) {
     write(scratch / "a.din", din);
     write(scratch / "toy.json", toy);
     const std::string rows =
-        ",,,toy,L1,other,5,0,5,0,0,1,3,0,0,0,0,320,256,,,,,,\n"
-        ",,,toy,L2,other,5,2,3,0,0,1,0,0,0,0,0,192,64,,,,,,\n"
-        ",,,toy,dram,other,,,,,,,,,,,,,,3,1,1,1,2,331\n";
+        ",,,,,toy,L1,other,5,0,5,0,0,1,3,0,0,0,0,320,256,,,,,,\n"
+        ",,,,,toy,L2,other,5,2,3,0,0,1,0,0,0,0,0,192,64,,,,,,\n"
+        ",,,,,toy,dram,other,,,,,,,,,,,,,,3,1,1,1,2,331\n";
     const std::vector<std::string> words{"cachesim", (scratch / "a.din").string(), "--machine",
                                          (scratch / "toy.json").string()};
     EXPECT_EQ(expect_done(words).out, header + rows);
@@ -47,7 +48,7 @@ TEST(MachineCommand, WritesARowForEachLevelAndOneForTheDram) {
                                           "paper-128k," + (scratch / "toy.json").string()})
                                  .out;
     // Lines of 128 B: A and B are one line.
-    EXPECT_THAT(both, HasSubstr("\n,,,paper-128k,L1,other,5,3,2,0,0,1,0,0,0,0,0,256,128,,,,,,\n"));
+    EXPECT_THAT(both, HasSubstr("\n,,,,,paper-128k,L1,other,5,3,2,0,0,1,0,0,0,0,0,256,128,,,,,,\n"));
     EXPECT_THAT(both, testing::EndsWith("\n" + rows));
 }
 

@@ -447,17 +447,26 @@ TEST(Damaged, TraceJsonIsRefusedByFieldAndFileName) {
 TEST(Replay, AMachineOfOneLevelMovesWhatThatCacheMoves) {
     const Scratch scratch;
     const std::string trace = (captured_box() / "trace").string();
-    const std::string rows =
-        expect_done({"replay", trace, "--order", "naive", "hilbert:tile=16", "--machine", "paper-128k"}).out;
-    EXPECT_THAT(rows, StartsWith("scene,ordering,parameters,machine,level,region,accesses"));
-    const auto exact = results::from_csv(
-        expect_done({"replay", trace, "--order", "naive", "hilbert:tile=16", "--cache", "128K:128:8"}).out,
-        "stdout");
+    const std::vector<std::string> asked{"replay",          trace,      "--order", "naive",
+                                         "hilbert:tile=16", "--layout", "heap-32", "heap-20"};
+    const auto through = [&](const char* option, const char* what) {
+        std::vector<std::string> words = asked;
+        words.insert(words.end(), {option, what});
+        return expect_done(words).out;
+    };
+    const std::string rows = through("--machine", "paper-128k");
+    EXPECT_THAT(rows, StartsWith("scene,structure,layout,ordering,parameters,machine,level,region,accesses"));
+    const auto exact = results::from_csv(through("--cache", "128K:128:8"), "stdout");
+    EXPECT_EQ(exact.size(), 4u);
     for (const results::Row& row : exact)
-        EXPECT_THAT(rows,
-                    HasSubstr(fmt::format("box,{},{},paper-128k,L1,photons,{},{},{},", row.ordering,
-                                          row.ordering == "naive" ? "naive" : '"' + row.parameters + '"',
-                                          *row.accesses, *row.accesses - *row.misses, *row.misses)));
+        EXPECT_THAT(rows, HasSubstr(fmt::format(
+                              "box,left-balanced-kd,{},{},{},paper-128k,L1,photons,{},{},{},", row.layout,
+                              row.ordering, row.ordering == "naive" ? "naive" : '"' + row.parameters + '"',
+                              *row.accesses, *row.accesses - *row.misses, *row.misses)));
+    expect_refused(bad_usage,
+                   {"replay", trace, "--order", "naive", "--machine", "paper-128k", "--layout", "heap-20",
+                    "heap-20:top=0"},
+                   {"layout heap-20:top=0: found heap-20 twice"});
     expect_refused(bad_usage, {"replay", trace, "--order", "naive", "--machine", "nobody"}, {"nobody"});
 }
 

@@ -302,6 +302,7 @@ TEST(Csv, WritesRacesCachesAndMachinesAsDrawnByHand) {
         "writes_through,traffic_bytes,write,write_miss,index,seed\n"
         "random,4096,64,full,9,4,5,,,,1,2,384,through,no-allocate,hashed,7\n");
     MachineRow machine;
+    machine.layout = "heap-20";
     machine.machine = "mine, \"the\" first";
     machine.level = "L2";
     machine.region = "photons";
@@ -310,10 +311,11 @@ TEST(Csv, WritesRacesCachesAndMachinesAsDrawnByHand) {
     machine.picojoules = 0.5;
     EXPECT_EQ(
         to_csv<MachineRow>(std::span(&machine, 1)),
-        "scene,ordering,parameters,machine,level,region,accesses,hits,misses,sector_misses,victim_hits,"
-        "writebacks,clean_victims,writes_through,back_invalidations,prefetches,useful_prefetches,bytes_in,"
+        "scene,structure,layout,ordering,parameters,machine,level,region,accesses,hits,misses,sector_misses,"
+        "victim_hits,writebacks,clean_victims,writes_through,back_invalidations,prefetches,useful_prefetches,"
+        "bytes_in,"
         "bytes_out,bursts_read,bursts_written,row_hits,row_empty,row_conflicts,picojoules\n"
-        ",,,\"mine, \"\"the\"\" first\",L2,photons,5,,,,,,,,,,,,64,,,,,,0.5\n");
+        ",,heap-20,,,\"mine, \"\"the\"\" first\",L2,photons,5,,,,,,,,,,,,64,,,,,,0.5\n");
 }
 
 TEST(Csv, RefusesBadCellsAndMissingColumnsOfTheOtherKinds) {

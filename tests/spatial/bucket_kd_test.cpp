@@ -59,7 +59,8 @@ TEST(BucketKd, FindsWhatLookingAtEveryPhotonFindsAndItsWalksDecode) {
         const std::vector<Photon> photons = *any_photons(200);
         const BucketKd tree(photons, {.rule = *rc::gen::elementOf(rules),
                                       .leaf_photons = *rc::gen::inRange<std::uint32_t>(1, 20),
-                                      .radius = *rc::gen::element(0.0f, 0.3f, 100.0f)});
+                                      .radius = *rc::gen::element(0.0f, 0.3f, 100.0f),
+                                      .bounds = *rc::gen::arbitrary<bool>()});
         const auto decoder = tree.shape().decoder();
         const auto coordinate = [] { return static_cast<float>(*rc::gen::inRange(-4, 12)) * 0.5f; };
         const auto k = *rc::gen::inRange<std::uint32_t>(0, 30);
@@ -122,6 +123,50 @@ TEST(BucketKd, TheMedianTreeOfSevenIsTheOneDrawnByHand) {
     EXPECT_EQ(found[0].node, 6u);
 }
 
+TEST(BucketKd, ACellIsFartherThanThePlaneBeforeIt) {
+    // A photon a leaf; planes go through the first photon above them: x = 5, then y = 3 on the left and y = 4
+    // on the right. From (0, 1), in squares: the left's upper leaf is 4 away, the right half 25, its upper
+    // leaf 9 by its plane and 25 + 9 in truth.
+    std::vector<Photon> photons(4);
+    photons[1].position = {0, 3, 0};
+    photons[2].position = {5, 0, 0};
+    photons[3].position = {5, 4, 0};
+    const auto visited = [&](bool bounds, float radius) {
+        const BucketKd tree(photons,
+                            {.rule = SplitRule::median, .leaf_photons = 1, .radius = 0, .bounds = bounds});
+        NearestSet found(4, radius);
+        Recorded search;
+        nearest(tree, {0, 1, 0}, found, search);
+        return search.visited;
+    };
+    // Elements: root 0, left 1, right 2, leaves 3 to 6. 5.5 squared is 30.25, 5.9 squared 34.81.
+    EXPECT_THAT(visited(false, 5.5f), ElementsAre(0, 1, 3, 4, 2, 5, 6));
+    EXPECT_THAT(visited(true, 5.5f), ElementsAre(0, 1, 3, 4, 2, 5));
+    EXPECT_THAT(visited(true, 5.9f), ElementsAre(0, 1, 3, 4, 2, 5, 6));
+    EXPECT_THAT(visited(true, 1.0f), ElementsAre(0, 1, 3));
+}
+
+/// Photons on a wall 20 away: no plane lies between, so by planes a search passes nothing over within 20
+/// along x and y, and by cells what is farther than that in the wall.
+TEST(BucketKd, FromAfarBoundsSpareTheCornersOfASquare) {
+    std::vector<Photon> photons(64 * 64);
+    for (std::size_t i = 0; i < photons.size(); ++i)
+        photons[i].position = {static_cast<float>(i % 64), static_cast<float>(i / 64), 0};
+    const auto leaves = [&](bool bounds) {
+        const BucketKd tree(photons,
+                            {.rule = SplitRule::median, .leaf_photons = 1, .radius = 0, .bounds = bounds});
+        NearestSet found(4);
+        Recorded search;
+        nearest(tree, {31.4f, 31.4f, 20}, found, search);
+        return std::count_if(search.visited.begin(), search.visited.end(),
+                             [&](std::uint32_t e) { return e >= tree.shape().inner_nodes(); });
+    };
+    // Leaves are squares of side 1 between the photons. The fourth nearest is 400.72 away squared: 41 rows
+    // and columns are within 20.02 of the eye, and 1345 squares.
+    EXPECT_EQ(leaves(false), 41 * 41);
+    EXPECT_EQ(leaves(true), 1345);
+}
+
 TEST(BucketKd, TheMidpointSlidesToTheNearestPhoton) {
     // The cell is 0 to 16: the middle, 8, has 0 1 2 3 below. Below 8 the middle is 4: all lie below, so the
     // plane slides to 3 and takes 3 alone above it.
@@ -167,8 +212,10 @@ TEST(BucketKd, ManySearchesWalksDecode) {
     std::vector<Vec3> points;
     for (int q = 0; q < 500; ++q) points.push_back({numbers.uniform(), numbers.uniform(), numbers.uniform()});
     points.push_back({std::numeric_limits<float>::quiet_NaN(), 0, 0});
-    for (const SplitRule rule : rules) {
-        const BucketKd tree(photons, {.rule = rule, .leaf_photons = 8, .radius = 0.05f});
+    for (const auto& [rule, bounds] :
+         {std::pair(SplitRule::median, false), std::pair(SplitRule::median, true),
+          std::pair(SplitRule::midpoint, true), std::pair(SplitRule::voxel_volume, false)}) {
+        const BucketKd tree(photons, {.rule = rule, .leaf_photons = 8, .radius = 0.05f, .bounds = bounds});
         const Recording walks = record_walks(tree, points, 50, std::numeric_limits<float>::infinity());
         const Recording heap =
             record_walks(PhotonKd(photons), points, 50, std::numeric_limits<float>::infinity());
