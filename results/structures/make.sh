@@ -25,8 +25,9 @@ for part in $parts; do
     capture) [ -e room/trace/trace.json ] || "$regather" capture room -o room --width 256 --height 256 > /dev/null ;;
     trees)
         replay left-balanced-kd room left-balanced-kd:found=1 --order $orders --layout heap-20 van-emde-boas-20 van-emde-boas-14+6
-        replay median-kd room median-kd:leaf=8,found=1 --order $orders --layout depth-first-20 van-emde-boas-20 van-emde-boas-12+6
-        for structure in midpoint-kd:leaf=8,bounds=1 bvh:leaf=8 voxel-volume-kd:leaf=8,bounds=1 octree:leaf=8; do
+        replay octree room octree:leaf=8,found=1 --order $orders \
+            --layout heap-20 depth-first-20 van-emde-boas-20 clusters-20 van-emde-boas-12+6 clusters-12+6
+        for structure in midpoint-kd:leaf=8,bounds=1 median-kd:leaf=8 bvh:leaf=8 voxel-volume-kd:leaf=8,bounds=1; do
             replay "${structure%%:*}" room "$structure,found=1" --order $orders --layout depth-first-20 van-emde-boas-12+6
         done
         replay grid room grid:cell=8,found=1 --order $orders --layout heap-20 heap-12+6
@@ -42,8 +43,10 @@ for part in $parts; do
     scenes)
         for view in arena:8 house:40 cornell:22 caustics:6 prism:30 arena:40 house:8 cornell:4 caustics:30 prism:6; do
             scene=${view%:*} at=$(echo "$view" | tr : -)
-            [ -e "$at/trace/trace.json" ] ||
-                "$regather" capture "$scene" -o "$at" --frames "${view#*:}" --width 80 --height 80 --no-rays > /dev/null
+            if ! [ -e "$at/trace/trace.json" ]; then
+                "$regather" capture "$scene" -o "$at" --frames "${view#*:}" --width 80 --height 80 --no-rays --force > /dev/null
+                mv "$at"/frame-*/trace "$at/trace"
+            fi
             replay "$at-left-balanced-kd" "$at" left-balanced-kd:found=1 --order $orders --layout heap-20 van-emde-boas-14+6
             replay "$at-median-kd" "$at" median-kd:leaf=8,found=1 --order $orders --layout van-emde-boas-12+6
             replay "$at-octree" "$at" octree:leaf=8,found=1 --order $orders --layout depth-first-20 van-emde-boas-12+6
