@@ -19,7 +19,7 @@ constexpr double edge = 10, title_size = 15, small_size = 11, point_size = 10, l
 constexpr double title_at = 22, caption_at = 42, small_line = 15, label_line = 16;
 constexpr double above = 18, between = 22, across_room = 42, tick_room = 14, sample = 30;
 constexpr double gap_to_text = 11, gap_of_keys = 12, legend_line = 18, remark_lift = 16;
-constexpr double row_gap = 34, bare_gap = 10, bar_room = 100, bar_width = 16;
+constexpr double row_gap = 34, bare_gap = 10, right_room = 16, bar_room = 100, bar_width = 16;
 constexpr const char* dashes[] = {"solid", "(6,3)", "(2,3)", "(10,3,2,3)"};
 constexpr const char* level_dashes[] = {"(10,5)", "(4,4)", "(2,4)", "(12,4,2,4)"};
 constexpr const char* grey = "tc rgb '#505050'";
@@ -149,6 +149,7 @@ private:
             if (panel.bare) {
                 if (!panel.up.label.empty())
                     room = std::max(room, text_width(panel.up.label, label_size) + 8);
+                room = std::max(room, overhangs(panel, figure_.width - edge - right_room).first - edge);
                 continue;
             }
             double widest = 0;
@@ -160,8 +161,19 @@ private:
         return edge + room;
     }
 
+    /// How far the first and the last label of the axis across a panel, `width` wide, reach beyond it.
+    std::pair<double, double> overhangs(const Panel& panel, double width) const {
+        if (panel.raster || across(panel).scale.ticks.empty()) return {0, 0};
+        const Scale& scale = across(panel).scale;
+        const auto beyond = [&](const auto& tick, double inside) {
+            return std::max(0.0, text_width(tick.second, label_size) / 2 + 2 - inside * width);
+        };
+        return {beyond(scale.ticks.front(), scale.share(scale.ticks.front().first)),
+                beyond(scale.ticks.back(), 1 - scale.share(scale.ticks.back().first))};
+    }
+
     void lay_out() {
-        const double left = margin(), right = figure_.width - (figure_.colours ? bar_room : 16);
+        const double left = margin(), right = figure_.width - (figure_.colours ? bar_room : right_room);
         double y = caption_at + small_line * static_cast<double>(std::max<std::size_t>(caption_.size(), 1)) -
                    8 + above;
         for (std::size_t p = 0; p < figure_.panels.size();) {
@@ -174,7 +186,11 @@ private:
             }
             const double gap = figure_.panels[p].raster ? bare_gap : row_gap;
             const double gaps = static_cast<double>(end - p - 1) + figure_.panels[end - 1].room_beside;
-            const double width = right - left - gap * gaps;
+            double width = right - left - gap * gaps;
+            if (!figure_.colours) {
+                const Panel& last = figure_.panels[end - 1];
+                width -= std::max(0.0, overhangs(last, width * last.share / shares).second - right_room);
+            }
             double x = left, lift = 0;
             for (std::size_t i = p; i < end; ++i) {
                 const double own = width * figure_.panels[i].share / shares;

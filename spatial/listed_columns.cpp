@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "spatial/refusal.h"
 #include "trace/error.h"
 #include "trace/text.h"
 
@@ -14,14 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 using trace::Region;
 
-[[noreturn]] void refuse(const fs::path& folder, std::string_view column, std::uint64_t row,
-                         const std::string& found, const std::string& expected) {
-    throw trace::DataError(
-        fmt::format("{}: row {}: found {}, expected {}",
-                    trace::shown((folder / fmt::format("{}.npy", column)).string(), trace::most_shown_path),
-                    row, found, expected));
-}
-
 bool is_element_region(std::uint64_t region) {
     return region < trace::region_count && Region(region) != Region::reorder_buffer &&
            Region(region) != Region::photon_power;
@@ -30,11 +23,11 @@ bool is_element_region(std::uint64_t region) {
 void check_bytes(const Listed::Elements& elements, const fs::path& folder) {
     for (std::size_t e = 0; e < elements.bytes.size(); ++e) {
         if (elements.bytes[e] > most_element_bytes)
-            refuse(folder, "element_bytes", e, fmt::format("{}", elements.bytes[e]),
-                   fmt::format("at most {}", most_element_bytes));
+            refuse_row(folder, "element_bytes", e, fmt::format("{}", elements.bytes[e]),
+                       fmt::format("at most {}", most_element_bytes));
         if (!elements.address.empty() && elements.address[e] + elements.bytes[e] < elements.address[e])
-            refuse(folder, "element_address", e, fmt::format("{}", elements.address[e]),
-                   fmt::format("one that leaves room for {} bytes below 2^64", elements.bytes[e]));
+            refuse_row(folder, "element_address", e, fmt::format("{}", elements.address[e]),
+                       fmt::format("one that leaves room for {} bytes below 2^64", elements.bytes[e]));
     }
 }
 
@@ -50,7 +43,7 @@ void check_overlaps(const Listed::Elements& elements, const fs::path& folder) {
         const std::uint32_t before = order[i - 1], e = order[i];
         const std::uint64_t end = elements.address[before] + elements.bytes[before];
         if (elements.address[e] < end)
-            refuse(
+            refuse_row(
                 folder, "element_address", e, fmt::format("{}", elements.address[e]),
                 fmt::format("at least {}, where element {} ends (--allow-overlaps takes elements that share "
                             "bytes)",
@@ -62,21 +55,23 @@ void check_levels(const Listed::Elements& elements, const fs::path& folder) {
     const std::span<const std::uint32_t> parent = elements.parent;
     for (std::size_t e = 0; e < parent.size(); ++e)
         if (parent[e] >= parent.size())
-            refuse(folder, "element_parent", e, fmt::format("{}", parent[e]),
-                   fmt::format("an element below {}", parent.size()));
+            refuse_row(folder, "element_parent", e, fmt::format("{}", parent[e]),
+                       fmt::format("an element below {}", parent.size()));
     const std::vector<std::uint32_t> below = levels_below(parent);
     for (std::size_t e = 0; e < below.size(); ++e) {
         if (below[e] == no_level)
-            refuse(folder, "element_parent", e, fmt::format("{}, whose parents lead in a circle", parent[e]),
-                   "parents that lead to an element that is its own parent");
+            refuse_row(folder, "element_parent", e,
+                       fmt::format("{}, whose parents lead in a circle", parent[e]),
+                       "parents that lead to an element that is its own parent");
         if (elements.level.empty() && below[e] >= most_element_levels)
-            refuse(folder, "element_parent", e, fmt::format("an element {} steps below its root", below[e]),
-                   fmt::format("fewer than {}", most_element_levels));
+            refuse_row(folder, "element_parent", e,
+                       fmt::format("an element {} steps below its root", below[e]),
+                       fmt::format("fewer than {}", most_element_levels));
     }
     for (std::size_t e = 0; e < elements.level.size(); ++e)
         if (elements.level[e] >= most_element_levels)
-            refuse(folder, "element_level", e, fmt::format("{}", elements.level[e]),
-                   fmt::format("less than {}", most_element_levels));
+            refuse_row(folder, "element_level", e, fmt::format("{}", elements.level[e]),
+                       fmt::format("less than {}", most_element_levels));
 }
 
 template <class T>
@@ -93,8 +88,8 @@ std::vector<ElementRange> ranges_of(std::span<const std::uint32_t> region, const
         if (ranges.empty() || ranges.back().region != own) {
             for (const ElementRange& range : ranges)
                 if (range.region == own)
-                    refuse(folder, "element_region", e, fmt::format("{} again", region[e]),
-                           "the elements of a region together");
+                    refuse_row(folder, "element_region", e, fmt::format("{} again", region[e]),
+                               "the elements of a region together");
             ranges.push_back({own, e, 0});
         }
         ++ranges.back().count;
@@ -116,7 +111,8 @@ void check_elements(const Listed::Elements& elements, std::span<const std::uint3
                     const fs::path& folder) {
     for (std::size_t e = 0; e < region.size(); ++e)
         if (!is_element_region(region[e]))
-            refuse(folder, "element_region", e, fmt::format("{}", region[e]), "one of " + element_regions());
+            refuse_row(folder, "element_region", e, fmt::format("{}", region[e]),
+                       "one of " + element_regions());
     check_bytes(elements, folder);
     check_levels(elements, folder);
     if (!overlaps) check_overlaps(elements, folder);
@@ -148,7 +144,7 @@ Listed::Elements open_elements(trace::TraceReader& trace) {
     elements.bytes = column<std::uint32_t>(trace, "element_bytes");
     elements.address = column<std::uint64_t>(trace, "element_address");
     if (!elements.address.empty() && elements.bytes.empty())
-        refuse(trace.folder(), "element_address", 0, "an address", "element_bytes beside it");
+        refuse_row(trace.folder(), "element_address", 0, "an address", "element_bytes beside it");
     const trace::Json* const overlaps = trace.info().parameters.find("overlaps");
     check_elements(elements, region, overlaps && *overlaps == trace::Json(true), trace.folder());
     elements.ranges = ranges_of(region, trace.folder());
@@ -161,13 +157,13 @@ Listed::Elements open_elements(trace::TraceReader& trace) {
     for (const ElementRange& range : elements.ranges)
         if (range.region == Region::photons) leaves = range.count;
     if (begin.size() != leaves + 1 || begin.front() != 0 || begin.back() != photons)
-        refuse(trace.folder(), "tree_leaf_begin", begin.empty() ? 0 : begin.size() - 1,
-               begin.empty() ? "nothing" : fmt::format("{}", begin.back()),
-               fmt::format("{} rows from 0 to {}, the photons", leaves + 1, photons));
+        refuse_row(trace.folder(), "tree_leaf_begin", begin.empty() ? 0 : begin.size() - 1,
+                   begin.empty() ? "nothing" : fmt::format("{}", begin.back()),
+                   fmt::format("{} rows from 0 to {}, the photons", leaves + 1, photons));
     for (std::uint64_t l = 0; l < leaves; ++l)
         if (begin[l + 1] <= begin[l])
-            refuse(trace.folder(), "tree_leaf_begin", l + 1, fmt::format("{}", begin[l + 1]),
-                   fmt::format("more than {}", begin[l]));
+            refuse_row(trace.folder(), "tree_leaf_begin", l + 1, fmt::format("{}", begin[l + 1]),
+                       fmt::format("more than {}", begin[l]));
     return elements;
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "charts/caption.h"
@@ -83,8 +82,7 @@ Chart traffic_by_layout(const ChartKind& kind, const results::Rows& rows, const 
                                    .points = {{bytes, base + floor_from}, {bytes, base + floor_to}}});
         }
     }
-    Scale across = log_scale(values, byte_number);
-    across.high *= std::pow(across.high / across.low, 0.06);  // the last tick's label ends within the picture
+    const Scale across = log_scale(values, byte_number);
     for (std::size_t p = 0; p < places.size(); ++p)
         panel.notes.push_back(
             {across.low, static_cast<double>(places.size() - 1 - p) + 0.72,

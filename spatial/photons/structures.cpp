@@ -14,6 +14,7 @@
 #include "spatial/photons/listed_search.h"
 #include "spatial/photons/photon_kd.h"
 #include "spatial/rays/ray_structures.h"
+#include "spatial/refusal.h"
 #include "trace/error.h"
 #include "trace/range.h"
 #include "trace/text.h"
@@ -142,26 +143,19 @@ std::unique_ptr<PhotonSearch> build_buckets(std::span<const Photon> heap, const 
         tells_found(given), std::move(text));
 }
 
-[[noreturn]] void refuse(const trace::TraceReader& trace, std::string_view column, std::uint64_t row,
-                         const std::string& found, const std::string& expected) {
-    throw trace::DataError(fmt::format("{}: row {}: found {}, expected {}",
-                                       (trace.folder() / fmt::format("{}.npy", column)).string(), row, found,
-                                       expected));
-}
-
 std::shared_ptr<const Structure> open_tree(trace::TraceReader& trace) {
     const std::uint64_t photons = trace.column<Photon>("photon").size();
     const std::span<const std::uint32_t> children = trace.column<std::uint32_t>("tree_child"),
                                          leaf_begin = trace.column<std::uint32_t>("tree_leaf_begin");
     const std::uint64_t inner = children.size() / 2, leaves = leaf_begin.empty() ? 0 : leaf_begin.size() - 1;
     if (leaf_begin.empty() || leaf_begin.front() != 0 || leaf_begin.back() != photons)
-        refuse(trace, "tree_leaf_begin", leaf_begin.empty() ? 0 : leaf_begin.size() - 1,
-               leaf_begin.empty() ? "nothing" : fmt::format("{}", leaf_begin.back()),
-               fmt::format("0 to {}, the photons", photons));
+        refuse_row(trace.folder(), "tree_leaf_begin", leaf_begin.empty() ? 0 : leaf_begin.size() - 1,
+                   leaf_begin.empty() ? "nothing" : fmt::format("{}", leaf_begin.back()),
+                   fmt::format("0 to {}, the photons", photons));
     for (std::uint64_t l = 0; l < leaves; ++l)
         if (leaf_begin[l + 1] <= leaf_begin[l])
-            refuse(trace, "tree_leaf_begin", l + 1, fmt::format("{}", leaf_begin[l + 1]),
-                   fmt::format("more than {}", leaf_begin[l]));
+            refuse_row(trace.folder(), "tree_leaf_begin", l + 1, fmt::format("{}", leaf_begin[l + 1]),
+                       fmt::format("more than {}", leaf_begin[l]));
     if (children.size() % 2 != 0 || inner != (leaves == 0 ? 0 : leaves - 1))
         throw trace::DataError(fmt::format("{}: found {} rows, expected {}, two for each leaf but one",
                                            (trace.folder() / "tree_child.npy").string(), children.size(),
@@ -171,9 +165,9 @@ std::shared_ptr<const Structure> open_tree(trace::TraceReader& trace) {
     for (std::uint64_t c = 0; c < children.size(); ++c) {
         const std::uint64_t child = children[c];
         if (child >= inner + leaves || child <= c / 2 || met[child])
-            refuse(trace, "tree_child", c, fmt::format("{}", child),
-                   fmt::format("an element above {} and below {} that is no other's child", c / 2,
-                               inner + leaves));
+            refuse_row(trace.folder(), "tree_child", c, fmt::format("{}", child),
+                       fmt::format("an element above {} and below {} that is no other's child", c / 2,
+                                   inner + leaves));
         met[child] = true;
     }
     return std::make_shared<PhotonTree>(trace.info().structure, std::vector(children.begin(), children.end()),
@@ -288,8 +282,8 @@ std::vector<Vec3> record_positions(trace::TraceReader& trace) {
     const std::span<const std::uint32_t> photon_at = trace.column<std::uint32_t>("tree_photon");
     for (std::size_t place = 0; place < photons.size(); ++place) {
         if (photon_at[place] >= photons.size())
-            refuse(trace, "tree_photon", place, fmt::format("{}", photon_at[place]),
-                   fmt::format("a photon below {}", photons.size()));
+            refuse_row(trace.folder(), "tree_photon", place, fmt::format("{}", photon_at[place]),
+                       fmt::format("a photon below {}", photons.size()));
         positions[place] = photons[photon_at[place]].position;
     }
     return positions;

@@ -6,6 +6,7 @@
 #include <bit>
 #include <vector>
 
+#include "spatial/refusal.h"
 #include "trace/error.h"
 #include "trace/range.h"
 #include "trace/text.h"
@@ -35,21 +36,14 @@ std::string_view name_of(std::string_view spec) {
     return spec.substr(0, spec.find(':'));
 }
 
-[[noreturn]] void refuse(const trace::TraceReader& trace, std::string_view column, std::uint64_t row,
-                         const std::string& found, const std::string& expected) {
-    throw trace::DataError(fmt::format(
-        "{}: row {}: found {}, expected {}",
-        trace::shown((trace.folder() / fmt::format("{}.npy", column)).string(), trace::most_shown_path), row,
-        found, expected));
-}
-
 void check_leaves(const trace::TraceReader& trace, std::span<const std::uint32_t> begin) {
     if (begin.empty() || begin[0] != 0)
-        refuse(trace, "tree_leaf_begin", 0, begin.empty() ? "nothing" : fmt::format("{}", begin[0]), "0");
+        refuse_row(trace.folder(), "tree_leaf_begin", 0,
+                   begin.empty() ? "nothing" : fmt::format("{}", begin[0]), "0");
     for (std::size_t l = 0; l + 1 < begin.size(); ++l)
         if (begin[l + 1] <= begin[l] || begin[l + 1] - begin[l] > RayBvh::width)
-            refuse(trace, "tree_leaf_begin", l + 1, fmt::format("{}", begin[l + 1]),
-                   fmt::format("1 to {} more than {}", RayBvh::width, begin[l]));
+            refuse_row(trace.folder(), "tree_leaf_begin", l + 1, fmt::format("{}", begin[l + 1]),
+                       fmt::format("1 to {} more than {}", RayBvh::width, begin[l]));
 }
 
 /// Each element but the root is the child of one node that comes before it, so there is no cycle; nodes fill
@@ -58,26 +52,26 @@ void check_children(const trace::TraceReader& trace, std::span<const std::uint32
                     std::uint32_t width, std::uint64_t leaves) {
     const std::uint64_t inner = children.size() / width;
     if (children.size() % width != 0 || (leaves <= 1 && inner > 0) || (leaves > 1 && inner == 0))
-        refuse(trace, "tree_child", children.size(), fmt::format("{} rows", children.size()),
-               fmt::format("{} for each inner node of a tree with {} leaves", width, leaves));
+        refuse_row(trace.folder(), "tree_child", children.size(), fmt::format("{} rows", children.size()),
+                   fmt::format("{} for each inner node of a tree with {} leaves", width, leaves));
     std::vector<bool> met(inner + leaves);
     std::uint64_t known = 0;
     for (std::uint64_t c = 0; c < children.size(); ++c) {
         const std::uint64_t child = children[c], slot = c % width;
         if (child == 0 ? slot < 2 : slot > 0 && children[c - 1] == 0)
-            refuse(trace, "tree_child", c, fmt::format("{}", child),
-                   "children from the first row of a node on, two at least");
+            refuse_row(trace.folder(), "tree_child", c, fmt::format("{}", child),
+                       "children from the first row of a node on, two at least");
         if (child == 0) continue;
         if (child >= inner + leaves || child <= c / width || met[child])
-            refuse(trace, "tree_child", c, fmt::format("{}", child),
-                   fmt::format("an element above {} and below {} that is no other's child", c / width,
-                               inner + leaves));
+            refuse_row(trace.folder(), "tree_child", c, fmt::format("{}", child),
+                       fmt::format("an element above {} and below {} that is no other's child", c / width,
+                                   inner + leaves));
         met[child] = true;
         ++known;
     }
     if (inner > 0 && known + 1 != inner + leaves)
-        refuse(trace, "tree_child", children.size(), fmt::format("{} children", known),
-               fmt::format("{}, all elements but the root", inner + leaves - 1));
+        refuse_row(trace.folder(), "tree_child", children.size(), fmt::format("{} children", known),
+                   fmt::format("{}, all elements but the root", inner + leaves - 1));
 }
 
 }  // namespace
@@ -170,8 +164,8 @@ std::shared_ptr<const Structure> open_ray_structure(trace::TraceReader& trace) {
     if (trace.has("tree_triangle"))
         if (const std::uint64_t places = trace.column<std::uint32_t>("tree_triangle").size();
             places != begin.back())
-            refuse(trace, "tree_leaf_begin", begin.size() - 1, fmt::format("{}", begin.back()),
-                   fmt::format("{} as the rows of tree_triangle", places));
+            refuse_row(trace.folder(), "tree_leaf_begin", begin.size() - 1, fmt::format("{}", begin.back()),
+                       fmt::format("{} as the rows of tree_triangle", places));
     return std::make_shared<RayTree>(spec.text,
                                      RayTree::Shape{.width = spec.entry->width,
                                                     .children = {children.begin(), children.end()},
