@@ -301,7 +301,9 @@ const MappedColumn& TraceReader::open(std::string_view name, const ColumnType& t
     const fs::path path = column_path(folder_, name);
     const auto digest = digests_.find(std::string(name));
     if (digest == digests_.end()) {
-        std::string why = "it was not captured: capture the scene again";
+        std::string why = name == "query_end" || name == "query_guess"
+                              ? "rays have it: regather walk TRACE --rays KIND"
+                              : "it was not captured: capture the scene again";
         for (const LeftOut& entry : info_.left_out)
             if (entry.what == name) why = entry.why;
         throw DataError(fmt::format("{}: found no such column ({}), expected {}",

@@ -144,6 +144,9 @@ TEST(Rays, WhatDoesNotFitIsRefused) {
     refused(bad_data, {"--rays", "specular"}, {"ray_specular_origin.npy", "no such column"});
     expect_refused(bad_usage, {"walk", box(), "--rays", "eye", "-o", box(), "--force"}, {"another folder"});
 
+    for (const char* order : {"origin-end", "origin-guess"})
+        expect_refused(bad_data, {"replay", box(), "--order", order},
+                       {"query_", "no such column", "regather walk TRACE --rays KIND"});
     const fs::path rays = walked(scratch, "eye", "bvh-4:leaf=3");
     expect_refused(bad_data, {"walk", rays.string(), "--rays", "eye", "-o", to},
                    {"parameters.scene_checksum"});
