@@ -16,10 +16,10 @@ target_compile_options(regather_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fpch-p
     $<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>)
 regather_precompiled_headers(regather_precompiled HEADERS ${regather_standard_headers} NEEDS fmt::fmt)
 set(regather_cold_precompiled regather_precompiled)
-if(regather_cold)
+if(REGATHER_COLD_LEVEL)
     set(regather_cold_precompiled regather_precompiled_cold)
     regather_precompiled_headers(regather_precompiled_cold HEADERS ${regather_standard_headers} NEEDS fmt::fmt)
-    target_compile_options(regather_precompiled_cold PRIVATE ${regather_cold})
+    target_compile_options(regather_precompiled_cold PRIVATE ${REGATHER_COLD_LEVEL})
 endif()
 if(REGATHER_TESTS)
     regather_precompiled_headers(regather_test_precompiled
