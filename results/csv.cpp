@@ -250,7 +250,8 @@ void from_csv(const RowKind& kind, std::string_view text, std::string_view file,
               const std::function<void*()>& next, std::vector<std::string>* unknown) {
     Records records(text, file);
     std::vector<std::string> header, cells;
-    if (!records.next(header)) throw trace::DataError(fmt::format("{}: empty, expected a header line", file));
+    if (!records.next(header))
+        throw trace::DataError(fmt::format("{}: found nothing, expected a header line", file));
     const auto place = places(kind, header, records, unknown);
     while (records.next(cells)) {
         if (cells.size() != header.size())
@@ -276,7 +277,8 @@ void from_csv(const RowKind& kind, std::string_view text, std::string_view file,
 std::vector<std::string> header_of(std::string_view text, std::string_view file) {
     Records records(text, file);
     std::vector<std::string> header;
-    if (!records.next(header)) throw trace::DataError(fmt::format("{}: empty, expected a header line", file));
+    if (!records.next(header))
+        throw trace::DataError(fmt::format("{}: found nothing, expected a header line", file));
     return header;
 }
 

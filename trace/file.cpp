@@ -38,9 +38,12 @@ Descriptor locked(const std::filesystem::path& path, const Fail& fail) {
 }  // namespace
 
 std::string read_file(const std::filesystem::path& path, std::uint64_t most_bytes) {
-    const auto refuse = [&](const std::string& found) {
-        return DataError(fmt::format("{}: found {}, expected a file of at most {} bytes",
-                                     shown(path.string(), most_shown_path), found, most_bytes));
+    const auto refuse = [&](const std::string& found, const std::string& expected = "a file") {
+        return DataError(
+            fmt::format("{}: found {}, expected {}", shown(path.string(), most_shown_path), found, expected));
+    };
+    const auto too_large = [&](const std::string& found) {
+        return refuse(found, fmt::format("a file of at most {} bytes", most_bytes));
     };
     const auto reason = [] { return fmt::format("what cannot be read ({})", std::strerror(errno)); };
     // Without O_NONBLOCK a pipe would wait for its writer.
@@ -51,7 +54,7 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t most_byte
     if (S_ISDIR(info.st_mode)) throw refuse("a folder");
     if (!S_ISREG(info.st_mode)) throw refuse("a device or a pipe");
     const auto size = static_cast<std::uint64_t>(info.st_size);
-    if (size > most_bytes) throw refuse(fmt::format("{} bytes", size));
+    if (size > most_bytes) throw too_large(fmt::format("{} bytes", size));
     // Files that grow are read to their end, and some file systems (/proc) say 0: one byte more tells.
     std::string bytes(size + 1, '\0');
     std::size_t filled = 0;
@@ -61,7 +64,7 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t most_byte
         if (got < 0) throw refuse(reason());
         if (got == 0) break;
         filled += static_cast<std::size_t>(got);
-        if (filled > most_bytes) throw refuse(fmt::format("more than {} bytes", most_bytes));
+        if (filled > most_bytes) throw too_large(fmt::format("more than {} bytes", most_bytes));
         if (filled == bytes.size()) bytes.resize(2 * bytes.size());
     }
     bytes.resize(filled);

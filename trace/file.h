@@ -10,8 +10,9 @@ namespace regather::trace {
 
 inline constexpr std::uint64_t most_file_bytes = std::uint64_t{1} << 30;
 
-/// All bytes of a regular file. Throws DataError "FILE: found X, expected a file of at most N bytes" for one
-/// that is missing, larger, a folder, a device or a pipe, or cannot be read.
+/// All bytes of a regular file. Throws DataError "FILE: found X, expected a file" for one that is missing, a
+/// folder, a device or a pipe, or cannot be read, "... expected a file of at most N bytes" for one that is
+/// larger.
 std::string read_file(const std::filesystem::path& path, std::uint64_t most_bytes = most_file_bytes);
 
 /// Afterwards the file has these bytes; after a crash or a full disk it is as it was, or absent. Written
