@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
 #include <map>
+#include <memory>
 #include <set>
 
 #include "cachesim/cache_list.h"
@@ -10,8 +13,12 @@
 #include "experiment/frames.h"
 #include "experiment/measurement.h"
 #include "reorder/shared_library.h"
+#include "replay/layouts/catalogue.h"
 #include "scenes/loader.h"
 #include "scenes/needs.h"
+#include "spatial/photons/left_balanced.h"
+#include "spatial/photons/photon_kd.h"
+#include "spatial/photons/structures.h"
 #include "trace/digest.h"
 #include "trace/field.h"
 #include "trace/file.h"
@@ -29,6 +36,8 @@ const Kind experiment_kind{"experiment",
                             {"capture", false, "an object"},
                             {"orderings", true, "a list of orderings"},
                             {"caches", false, "a list of caches"},
+                            {"structures", false, "a list of structures"},
+                            {"layouts", false, "a list of layouts"},
                             {"onchip", false, "one size"},
                             {"classes", false, "true or false"},
                             {"buffers", false, "true or false"},
@@ -66,12 +75,18 @@ std::vector<cachesim::CacheConfig> listed_caches(const Field& owner) {
     return caches;
 }
 
-/// "name:a=1,b=2" for each combination of the lists of values; the keys in alphabetical order.
-std::vector<std::string> specs(const Field& entry, const std::string& name) {
+/// An entry of a list, a name by itself or an object that has it at `what` beside parameters and, at `own`,
+/// what it has in place of the experiment's: "name:a=1,b=2" for each combination of the lists of values, the
+/// keys in alphabetical order.
+std::vector<std::string> specs(const Field& entry, std::string_view what, std::string_view own) {
+    if (entry.value().text() != nullptr) return {entry.text()};
+    const std::string article = what == "ordering" ? "an" : "a";
+    if (!entry.value().is_object())
+        entry.fail(entry.found(), fmt::format("the name of {} {}, or an object", article, what));
     std::map<std::string, std::vector<std::string>> parameters;
     for (const auto& [key, field] : entry.members())
-        if (key != "ordering" && key != "caches") parameters[key] = field.texts();
-    std::vector<std::string> all{name};
+        if (key != what && key != own) parameters[key] = field.texts();
+    std::vector<std::string> all{entry[what].text(fmt::format("the name of {} {}", article, what))};
     for (const auto& [key, values] : parameters) {
         std::vector<std::string> longer;
         for (const std::string& spec : all)
@@ -80,6 +95,74 @@ std::vector<std::string> specs(const Field& entry, const std::string& name) {
                     fmt::format("{}{}{}={}", spec, key == parameters.begin()->first ? ":" : ",", key, value));
         all = std::move(longer);
     }
+    return all;
+}
+
+/// Whether an entry of a list is an object with this key.
+bool has(const Field& entry, std::string_view key) {
+    return entry.value().is_object() && entry.has(key);
+}
+
+/// A small one of a structure, for what can be told before a capture.
+class Specimen {
+public:
+    explicit Specimen(const spatial::StructureSpec& spec) {
+        constexpr std::uint32_t photons = 256, k = 8;  // more than any leaf holds
+        for (std::uint32_t i = 0; i < photons; ++i) {
+            trace::Photon photon;
+            photon.position = {static_cast<float>(i), static_cast<float>(i * 37 % 101),
+                               static_cast<float>(i * i % 89)};
+            heap_.push_back(photon);
+            positions_.push_back(photon.position);
+        }
+        heap_ = spatial::left_balanced(heap_);
+        search_ = spatial::build(spec, heap_, k, std::numeric_limits<float>::infinity());
+    }
+    replay::Layout layout(std::string_view spec) const {
+        return replay::make_layout(spec, *search_->structure(), positions_);
+    }
+    std::string default_layout() const { return replay::default_layout(*search_->structure()); }
+
+private:
+    std::vector<trace::Photon> heap_;
+    std::vector<trace::Vec3> positions_;
+    std::unique_ptr<spatial::PhotonSearch> search_;
+};
+
+/// One structure with the layouts at the key "layouts" of `owner`; each of them suits it.
+Searched searched(const spatial::StructureSpec& spec, const Field& entry, const Field& owner) {
+    const Specimen specimen = entry.checked([&] { return Specimen(spec); });
+    Searched all{spec.text, {}};
+    if (!has(owner, "layouts")) {
+        all.layouts.push_back(specimen.default_layout());
+        return all;
+    }
+    for (const Field& layout : entries(owner, "layouts")) {
+        const std::string& text = layout.text("the name of a layout");
+        const std::string name = layout.checked([&] { return std::string(specimen.layout(text).name()); });
+        if (std::find(all.layouts.begin(), all.layouts.end(), name) != all.layouts.end())
+            layout.fail(fmt::format("{} a second time", name), "each layout once");
+        all.layouts.push_back(name);
+    }
+    return all;
+}
+
+std::vector<Searched> all_searched(const Field& in) {
+    if (!in.has("structures"))
+        return {searched(spatial::parse_structure(spatial::LeftBalanced::structure_name), in, in)};
+    std::vector<Searched> all;
+    bool common = false;  // whether any has none of its own
+    for (const Field& entry : entries(in, "structures"))
+        for (const std::string& text : specs(entry, "structure", "layouts")) {
+            const spatial::StructureSpec spec = entry.checked([&] { return spatial::parse_structure(text); });
+            for (const Searched& before : all)
+                if (before.structure == spec.text)
+                    entry.fail(fmt::format("{} a second time", spec.text), "each structure once");
+            all.push_back(searched(spec, entry, has(entry, "layouts") ? entry : in));
+            common |= !has(entry, "layouts");
+        }
+    if (!common && in.has("layouts"))
+        in["layouts"].refuse("found beside layouts of each structure, expected one or the other");
     return all;
 }
 
@@ -132,6 +215,8 @@ Experiment load_experiment(const std::filesystem::path& path) {
     const std::vector<cachesim::CacheConfig> caches =
         in.has("caches") ? listed_caches(in) : std::vector<cachesim::CacheConfig>{cachesim::CacheConfig{}};
 
+    experiment.searched = all_searched(in);
+
     const auto flag = [&](std::string_view key) { return in.has(key) && in[key].truth(); };
     experiment.method.classes = flag("classes");
     experiment.method.buffers = flag("buffers");
@@ -147,17 +232,12 @@ Experiment load_experiment(const std::filesystem::path& path) {
     }
 
     for (const Field& entry : entries(in, "orderings")) {
-        const bool bare = entry.value().text() != nullptr;
-        if (!bare && !entry.value().is_object())
-            entry.fail(entry.found(), "the name of an ordering, or an object");
-        const std::string name = bare ? entry.text() : entry["ordering"].text("the name of an ordering");
-        for (const std::string& spec : bare ? std::vector<std::string>{name} : specs(entry, name)) {
+        for (const std::string& spec : specs(entry, "ordering", "caches")) {
             reorder::ParsedOrdering parsed =
                 entry.checked([&] { return reorder::parse_ordering(spec, path.parent_path()); });
             std::string digest = library_digest(*parsed.ordering);
-            experiment.trials.push_back({std::move(parsed),
-                                         !bare && entry.has("caches") ? listed_caches(entry) : caches,
-                                         std::move(digest)});
+            experiment.trials.push_back(
+                {std::move(parsed), has(entry, "caches") ? listed_caches(entry) : caches, std::move(digest)});
         }
         if (experiment.method.sampling)
             in["sample"].checked([&] {

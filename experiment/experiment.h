@@ -1,5 +1,5 @@
-// experiment/experiment.h -- an experiment file: a scene, how to capture it, and the orderings x parameters x
-// caches to replay. Format: docs/experiments.md.
+// experiment/experiment.h -- an experiment file: a scene, how to capture it, and the structures x layouts x
+// orderings x parameters x caches to replay. Format: docs/experiments.md.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -20,9 +20,16 @@ struct Trial {
     std::string library_digest;  ///< Of a user's shared library, else empty.
 };
 
+/// What the captured queries are searched in, and how it lies in memory when its walks are replayed.
+struct Searched {
+    std::string structure;             ///< All parameters; a spec of spatial/photons/structures.h again.
+    std::vector<std::string> layouts;  ///< Likewise, of replay/layouts/catalogue.h; at least one.
+};
+
 struct Experiment {
     std::string scene;
     CaptureOptions capture;
+    std::vector<Searched> searched;  ///< Multiplied out as the trials; at least one.
     std::vector<Trial> trials;  ///< Lists of parameter values are multiplied out, keys in alphabetical order,
                                 ///< the last fastest.
     std::uint64_t onchip_bytes = reorder::default_onchip_bytes;

@@ -1,5 +1,6 @@
 // experiment/experiment_job.h -- an experiment from its file to its rows: OUT as a capture fills it
-// (experiment/capture_job.h), and the finished parts of each frame in OUT/parts/ or OUT/frame-0005/parts/.
+// (experiment/capture_job.h), and of each frame the walks in other structures in OUT/walks/ or
+// OUT/frame-0005/walks/, and the finished parts in OUT/parts/ or OUT/frame-0005/parts/.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -25,9 +26,9 @@ struct ExperimentJob {
 
 struct ExperimentResult {
     std::vector<std::filesystem::path> folders;  ///< One a frame.
-    std::vector<results::Row> rows;              ///< Frame by frame, with net benefits.
-    std::vector<std::string> checksums;          ///< Of the traces, one a frame.
-    trace::Json parameters;                      ///< Of the capture.
+    std::vector<results::Row> rows;      ///< Frame by frame, structure by structure, with net benefits.
+    std::vector<std::string> checksums;  ///< Of the traces replayed, in the order of the rows.
+    trace::Json parameters;              ///< Of the capture.
 };
 
 /// What is finished is kept and not made again; a listener that throws ends it. Holds the folder's lock.

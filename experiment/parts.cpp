@@ -32,9 +32,11 @@ struct Part {
     fs::path path;
 };
 
+/// One of a trace as the measurement has it laid out.
 Part part(const PartStore& store, const char* kind, const trace::TraceReader& trace,
-          const std::string& what) {
-    std::string key = fmt::format("{} {} {} {}", kind, store.revision, trace.checksum(), what);
+          const Measurement& measurement, const std::string& what) {
+    std::string key = fmt::format("{} {} {} {} {} {}", kind, store.revision, trace.checksum(),
+                                  trace.info().structure, measurement.layout().name(), what);
     fs::path path = store.folder / fmt::format("{}-{}.part", kind, trace::digest_of(key));
     return {std::move(key), std::move(path)};
 }
@@ -48,6 +50,11 @@ std::string cache_texts(std::span<const cachesim::CacheConfig> caches) {
     std::string text;
     for (const cachesim::CacheConfig& cache : caches) text += ' ' + cachesim::cache_text(cache);
     return text;
+}
+
+/// Where the queries were searched and how that lies in memory, for people.
+std::string place(const Measurement& measurement) {
+    return fmt::format("{} in {}", measurement.structure_name(), measurement.layout().name());
 }
 
 /// Each once, in the order of the trials.
@@ -65,7 +72,7 @@ void find_compulsory(Measurement& measurement, const Experiment& experiment, con
     std::set<std::uint32_t> sizes;
     for (const cachesim::CacheConfig& cache : all_caches(experiment)) sizes.insert(cache.line_bytes);
     const std::vector<std::uint32_t> lines(sizes.begin(), sizes.end());
-    const Part kept = part(store, "compulsory", trace, fmt::format("{}", fmt::join(lines, " ")));
+    const Part kept = part(store, "compulsory", trace, measurement, fmt::format("{}", fmt::join(lines, " ")));
     if (const auto text = read_kept(kept.path, kept.key)) {
         for (const results::Row& row : results::from_csv(*text, kept.path.string()))
             measurement.compulsory_bytes[static_cast<std::uint32_t>(row.line_bytes.value_or(0))] =
@@ -88,7 +95,8 @@ void find_compulsory(Measurement& measurement, const Experiment& experiment, con
 void prepare(Measurement& measurement, const Experiment& experiment, const PartStore& store,
              const trace::TraceReader& trace, const ProgressListener& progress) {
     const std::vector<cachesim::CacheConfig> caches = all_caches(experiment);
-    const Part kept = part(store, "revisits", trace, method_text(experiment.method) + cache_texts(caches));
+    const Part kept =
+        part(store, "revisits", trace, measurement, method_text(experiment.method) + cache_texts(caches));
     const bool exact = !experiment.method.sampling;
     if (const auto text = exact ? read_kept(kept.path, kept.key) : std::nullopt) {
         measurement.prepare(revisits_in(*text, kept.path), experiment.method);
@@ -96,7 +104,8 @@ void prepare(Measurement& measurement, const Experiment& experiment, const PartS
     }
     measurement.prepare(
         caches, experiment.method,
-        listening(progress, "counting what no order changes", "queries", measurement.queries()));
+        listening(progress, fmt::format("counting what no order of {} changes", place(measurement)),
+                  "queries", measurement.queries()));
     if (exact) write_kept(kept.path, kept.key, text_of(measurement.revisits()));
 }
 
@@ -104,7 +113,7 @@ void prepare(Measurement& measurement, const Experiment& experiment, const PartS
 /// does nothing else.
 void replay(const Measurement& measurement, const Experiment& experiment, std::span<const Part> parts,
             std::span<const std::size_t> missing, const ProgressListener& progress) {
-    const std::string stage = fmt::format("replaying {} orderings", missing.size());
+    const std::string stage = fmt::format("replaying {} orderings of {}", missing.size(), place(measurement));
     const std::uint64_t total = missing.size() * measurement.queries();
     std::atomic<std::uint64_t> done{0};
     const auto tell = [&](std::uint64_t more) {
@@ -138,12 +147,10 @@ void replay(const Measurement& measurement, const Experiment& experiment, std::s
     }
 }
 
-}  // namespace
-
-std::vector<results::Row> rows_of(trace::TraceReader& trace, const Experiment& experiment,
-                                  const PartStore& store, const ProgressListener& progress) {
-    Measurement measurement(trace, reads(experiment), experiment.onchip_bytes);
-    fs::create_directories(store.folder);
+/// The rows of all trials in the measurement's layout.
+std::vector<results::Row> rows_in_layout(Measurement& measurement, trace::TraceReader& trace,
+                                         const Experiment& experiment, const PartStore& store,
+                                         const ProgressListener& progress) {
     find_compulsory(measurement, experiment, store, trace);
     std::vector<Part> parts;
     std::vector<std::optional<std::string>> texts;
@@ -151,7 +158,7 @@ std::vector<results::Row> rows_of(trace::TraceReader& trace, const Experiment& e
     for (std::size_t t = 0; t < experiment.trials.size(); ++t) {
         const Trial& trial = experiment.trials[t];
         parts.push_back(part(
-            store, "rows", trace,
+            store, "rows", trace, measurement,
             fmt::format("{} {} {} {}{}", trial.ordering.spec.text, trial.library_digest,
                         experiment.onchip_bytes, method_text(experiment.method), cache_texts(trial.caches))));
         texts.push_back(read_kept(parts[t].path, parts[t].key));
@@ -169,6 +176,22 @@ std::vector<results::Row> rows_of(trace::TraceReader& trace, const Experiment& e
                 fmt::format("{}: found another file than was written a moment ago, expected it to stay",
                             parts[t].path.string()));
         for (results::Row& row : results::from_csv(*texts[t], parts[t].path.string()))
+            rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+}  // namespace
+
+std::vector<results::Row> rows_of(trace::TraceReader& trace, std::span<const std::string> layouts,
+                                  const Experiment& experiment, const PartStore& store,
+                                  const ProgressListener& progress) {
+    Measurement measurement(trace, reads(experiment), experiment.onchip_bytes);
+    fs::create_directories(store.folder);
+    std::vector<results::Row> rows;
+    for (const std::string& layout : layouts) {
+        measurement.lay_out(layout);
+        for (results::Row& row : rows_in_layout(measurement, trace, experiment, store, progress))
             rows.push_back(std::move(row));
     }
     return rows;

@@ -22,6 +22,16 @@ bool of_the_search(std::string_view column) {
     return std::find(own.begin(), own.end(), column) != own.end() || column.starts_with("element_");
 }
 
+/// Whether both have the same columns but for those of the search.
+bool same_queries(const trace::TraceReader& a, const trace::TraceReader& b) {
+    const auto taken_over = [](const trace::TraceReader& trace) {
+        auto all = trace.digests();
+        std::erase_if(all, [](const auto& column) { return of_the_search(column.first); });
+        return all;
+    };
+    return taken_over(a) == taken_over(b);
+}
+
 }  // namespace
 
 std::string run(const StructureJob& job, const ProgressListener& progress) {
@@ -64,6 +74,23 @@ std::string run(const StructureJob& job, const ProgressListener& progress) {
     return fmt::format("{}: {} photons, {} queries, {:.1f} elements visited a query\ntrace: {}\n",
                        info.structure, info.photons, info.queries,
                        static_cast<double>(info.visited_nodes) / queries, job.folder.string());
+}
+
+bool is_done(const StructureJob& job) {
+    const spatial::StructureSpec spec = spatial::parse_structure(job.structure);
+    const trace::TraceReader from(job.trace);
+    if (!fs::exists(job.folder / "trace.json")) return false;
+    try {
+        trace::TraceReader made(job.folder);
+        const trace::TraceInfo& info = made.info();
+        if (info.structure != spec.text || info.structure_version != spec.entry->version ||
+            info.k != from.info().k || info.parameters != from.info().parameters || !same_queries(from, made))
+            return false;
+        made.verify_all();
+        return true;
+    } catch (const trace::DataError&) {
+        return false;
+    }
 }
 
 }  // namespace regather::experiment

@@ -19,4 +19,8 @@ struct StructureJob {
 /// and as trace::TraceWriter; trace::DataError for a trace that does not say its radius.
 std::string run(const StructureJob& job, const ProgressListener& progress);
 
+/// Whether the folder holds whole what run() would write. Throws as run() for the spec and the trace, not for
+/// what lies in the folder.
+bool is_done(const StructureJob& job);
+
 }  // namespace regather::experiment
