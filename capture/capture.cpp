@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -10,6 +11,7 @@
 #include "scenes/needs.h"
 #include "spatial/photons/photon_kd.h"
 #include "trace/error.h"
+#include "trace/packed_photon.h"
 
 namespace regather::capture {
 namespace {
@@ -51,8 +53,9 @@ struct Map {
 
     GatherConfig config;
     std::vector<trace::Photon> heap;
+    std::vector<trace::Photon> whole;  // where `heap` is of packed ones: the photons before, in heap order
     PhotonTally tally;
-    Gathered gathered;
+    Gathered gathered, of_whole;
     trace::TraceInfo info;
     std::unique_ptr<TraceColumns> columns;
 
@@ -64,6 +67,8 @@ struct Map {
             std::iota(order.begin(), order.end(), 0u);
         }
         capture::gather(scene, spatial::PhotonKd(heap), queries, order, config, gathered);
+        if (capture.record == PhotonRecord::packed)
+            capture::gather(scene, spatial::PhotonKd(whole), queries, order, config, of_whole);
         info.queries += queries.size();
         info.found_photons += gathered.found_photons;
         info.visited_nodes += gathered.visited_nodes;
@@ -111,6 +116,7 @@ trace::Json parameters(const Scene& scene, const CaptureConfig& config) {
         all["renderer"] = trace::Json::object({{"scene", scene.name}, {"fingerprint", config.renderer}});
     if (config.frame) all["frame"] = *config.frame;
     if (!config.keep.empty()) all["keep"] = config.keep;
+    if (config.record == PhotonRecord::packed) all["photon_record"] = 16;
     if (has_caustic_map(scene, config))
         all["caustic"] =
             trace::Json::object({{"photons", config.caustic.photons},
@@ -136,6 +142,8 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
     needs.keep(config.keep);
     const bool caustics = has_caustic_map(scene, config);
 
+    const bool packed = config.record == PhotonRecord::packed;
+    double farthest = 0;  // that a packed photon moved
     Captured result;
     Clock clock;
     const RayCaster caster(scene);
@@ -144,6 +152,10 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         clock.lap();
         PhotonPass pass = trace_photons(scene, caster, lights, photon);
         result.photon_seconds += clock.lap();
+        if (packed) {
+            map.whole = spatial::left_balanced(pass.photons);
+            farthest = std::max(farthest, trace::pack_positions(pass.photons));
+        }
         map.heap = spatial::left_balanced(pass.photons);
         map.tally = pass.tally;
         result.nonfinite += pass.tally.nonfinite;
@@ -177,6 +189,8 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
     const QueryPass query_pass(scene, caster, lights, config.pixels,
                                {.rays = writers.global && config.columns.rays, .caustics = caustics});
     Film film(config.pixels.width, config.pixels.height, config.pixels.samples);
+    std::optional<Film> whole_film;
+    if (packed) whole_film.emplace(config.pixels.width, config.pixels.height, config.pixels.samples);
     std::array<std::uint64_t, ray_kind_names.size()> ray_counts{};
     const std::uint64_t pixel_rays = config.pixels.gather_rays + 2 * std::uint64_t{config.pixels.samples} *
                                                                      config.pixels.shadow_rays *
@@ -192,6 +206,7 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         global.gather(scene, work.queries, config);
         if (caustics) caustic.gather(scene, work.caustic_queries, config);
         film.add(work, global.gathered, caustic.gathered);
+        if (whole_film) whole_film->add(work, global.of_whole, caustic.of_whole);
         result.gather_seconds += clock.lap();
         for (std::size_t kind = 0; kind < ray_counts.size(); ++kind)
             ray_counts[kind] += work.ray_counts[kind];
@@ -207,6 +222,7 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
     result.image = film.image();
     result.layers = film.layers();
     result.nonfinite += film.nonfinite();
+    if (whole_film) result.record_error = record_error(result.image, whole_film->image(), farthest);
 
     const auto finish = [&](Map& map, const char* name) {
         trace::TraceInfo& info = map.info;
@@ -232,6 +248,12 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         return info;
     };
     result.info = finish(global, "global");
+    if (const std::optional<RecordError>& error = result.record_error) {
+        result.info.counts["packed_farthest"] = error->farthest;
+        result.info.counts["packed_relative_rmse"] = error->relative_rmse;
+        result.info.counts["packed_relative_mean"] = error->relative_mean;
+        result.info.counts["packed_flip"] = error->flip;
+    }
     if (caustics) {
         result.caustic_info = finish(caustic, "caustic");
     } else if (writers.global) {

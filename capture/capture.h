@@ -17,6 +17,7 @@
 #include "capture/images/image.h"
 #include "capture/photon_pass.h"
 #include "capture/query_pass.h"
+#include "capture/record_error.h"
 #include "capture/trace_columns.h"
 #include "trace/folder.h"
 
@@ -36,6 +37,9 @@ struct CaptureConfig {
     PhotonConfig photon;
     GatherConfig gather;
     CausticConfig caustic;
+    /// What the photons of both maps are stored in. Packed ones are searched, seen and written where their
+    /// records say that they are; rays, queries and paths of photons stay as they are.
+    PhotonRecord record = PhotonRecord::whole;
     Columns columns;
     std::set<std::string> keep;  ///< Parts that the scene has no need of (scenes/needs.h), kept all the same.
     std::optional<std::uint32_t>
@@ -55,7 +59,8 @@ struct Captured {
     trace::TraceInfo info;
     std::optional<trace::TraceInfo> caustic_info;  ///< Where there is a caustic map.
     double photon_seconds = 0, tree_seconds = 0, query_seconds = 0, gather_seconds = 0, write_seconds = 0;
-    Nonfinite nonfinite;  ///< What was left out of the image and the maps.
+    Nonfinite nonfinite;                      ///< What was left out of the image and the maps.
+    std::optional<RecordError> record_error;  ///< Of packed photons: against the image from whole ones.
 };
 
 /// XXH3-64 over everything in the scene that light can see, in hexadecimal.

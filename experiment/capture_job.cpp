@@ -35,6 +35,21 @@ std::string figures(const trace::TraceInfo& info) {
         static_cast<double>(info.visited_nodes) / queries);
 }
 
+/// What packed photons did to the image; nothing of whole ones.
+std::string record_figures(const trace::TraceInfo& info) {
+    const auto figure = [&](const char* name) {
+        const trace::Json* const found = info.counts.find(name);
+        return found ? found->number() : 0;
+    };
+    if (!info.counts.find("packed_farthest")) return {};
+    return fmt::format(
+        "  photons of 16 bytes: moved by at most {:.3g}; the image against that from 20 bytes: RMS {:.3g} % "
+        "of "
+        "its mean, mean {:+.3g} %, FLIP {:.3g}\n",
+        figure("packed_farthest"), 100 * figure("packed_relative_rmse"), 100 * figure("packed_relative_mean"),
+        figure("packed_flip"));
+}
+
 /// Where the parts of one captured frame lie.
 struct Files {
     explicit Files(const fs::path& folder)
@@ -63,6 +78,7 @@ std::optional<std::string> kept(const fs::path& folder, const Files& files, cons
         fmt::format("kept the finished capture in {}\n{}", folder.string(), figures(trace.info()));
     if (capture::has_caustic_map(scene, config))
         report += figures(trace::TraceReader(files.caustic_trace).info());
+    report += record_figures(trace.info());
     return report;
 }
 
@@ -101,6 +117,7 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
         fmt::format("captured {} ({} triangles{})\n{}", trace::shown(scene.name), scene.triangles.size(),
                     config.frame ? fmt::format(", frame {}", *config.frame) : "", figures(captured.info));
     if (captured.caustic_info) report += figures(*captured.caustic_info);
+    report += record_figures(captured.info);
     report += fmt::format(
         "  seconds: photons {:.1f}, trees {:.1f}, queries {:.1f}, gathers {:.1f}, writing {:.1f}\n",
         captured.photon_seconds, captured.tree_seconds, captured.query_seconds, captured.gather_seconds,

@@ -54,6 +54,8 @@ capture::CaptureConfig CaptureOptions::config() const {
         .k = caustic_k,
         .radius = length(caustic_radius, "caustic_radius"),
         .filter = chosen<capture::Filter>(caustic_filter, capture::filter_names, "caustic_filter")};
+    config.record =
+        chosen<capture::PhotonRecord>(photon_record, capture::photon_record_names, "photon_record");
     config.keep = {keep.begin(), keep.end()};
     tone_curve();
     config.columns.rays = rays;
@@ -118,6 +120,11 @@ std::span<const CaptureKey> capture_keys() {
          .value = &Options::caustic_filter,
          .help = "its filter",
          .words = capture::filter_names},
+        {.name = "photon_record",
+         .value = &Options::photon_record,
+         .help =
+             "bytes of a photon; 16: positions in 21 bits an axis, and what that does to the image is told",
+         .words = capture::photon_record_names},
         {"keep", &Options::keep,
          "parts to build although the scene has no need of them (regather info SCENE lists them)"},
         {"frames", &Options::frames,

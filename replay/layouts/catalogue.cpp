@@ -34,7 +34,7 @@ constexpr std::array<LayoutOrder, 8> orders{{
 constexpr std::array<PhotonRecord, 6> records{{
     {"20", "as in Jensen 2001: position, power, direction, flags", 20, 20},
     {"32", "the same, padded to 32 bytes", 32, 20},
-    {"16", "compressed to 16 bytes", 16, 16},
+    {"16", "position in 21 bits an axis, the rest the same", 16, 16},
     {"14+6", "position and axis; power and direction apart, read of the photons found", 14, 14, 6},
     {"12+6", "position; power and direction apart, read of the photons found", 12, 12, 6, false},
     {own_record, "as many as each element says that it takes: of brought walks", 0, 0},

@@ -19,6 +19,25 @@ TEST(Capture, MakesImagesAndATrace) {
                                HasSubstr("verified")));
 }
 
+TEST(Capture, PackedPhotonsAreTraceAndPictureAndWhatTheyCostIsTold) {
+    const Scratch scratch;
+    const std::vector<std::string> words =
+        small_capture(scratch / "box") + std::vector<std::string>{"--photon-record", "16"};
+    EXPECT_THAT(expect_done(words).out,
+                testing::AllOf(HasSubstr("photons of 16 bytes: moved by at most"), HasSubstr("FLIP")));
+    EXPECT_THAT(expect_done(words).out,
+                testing::AllOf(HasSubstr("kept the finished capture"), HasSubstr("photons of 16 bytes")));
+    // The walks are of the photons that the trace holds, the queries those of whole photons.
+    expect_done({"info", (scratch / "box/trace").string(), "--verify"});
+    trace::TraceReader packed(scratch / "box/trace"), whole(captured_box() / "trace");
+    EXPECT_NE(packed.digests().at("photon"), whole.digests().at("photon"));
+    EXPECT_EQ(packed.digests().at("query_position"), whole.digests().at("query_position"));
+    expect_refused(bad_usage, small_capture(scratch / "box"), {"other parameters"});
+    expect_refused(bad_usage,
+                   small_capture(scratch / "no") + std::vector<std::string>{"--photon-record", "18"},
+                   {"--photon-record", "18"});
+}
+
 TEST(Capture, TheSameIsKeptAndOthersNeedForce) {
     const Scratch scratch;
     const std::vector<std::string> words =
