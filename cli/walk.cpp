@@ -27,6 +27,12 @@ struct Options {
     bool allow_overlaps = false;
 };
 
+void refuse_candidates(const Options& options, std::string_view found) {
+    if (options.job.candidates)
+        throw trace::UsageError(
+            fmt::format("--candidates: found {}, expected photons that are searched for", found));
+}
+
 void refuse_overlaps(const Options& options) {
     if (options.allow_overlaps)
         throw trace::UsageError(
@@ -46,10 +52,12 @@ experiment::StructureJob again(const Options& options) {
     return {.trace = options.job.columns,
             .folder = options.job.folder,
             .structure = options.structure.empty() ? options.job.structure : options.structure,
+            .candidates = options.job.candidates,
             .force = options.job.force};
 }
 
 experiment::VisitsJob of_visits(const Options& options) {
+    refuse_candidates(options, "visits that are brought");
     if (options.k || options.radius || !options.structure.empty())
         throw trace::UsageError(
             fmt::format("{}: found visit_element.npy, the walks of a search that is done, expected no --k, "
@@ -64,6 +72,7 @@ experiment::VisitsJob of_visits(const Options& options) {
 
 experiment::RayJob of_rays(const Options& options) {
     refuse_overlaps(options);
+    refuse_candidates(options, "--rays");
     if (options.k || options.width || options.radius)
         throw trace::UsageError("--rays: found --k, --radius or --width, expected none: rays have no such");
     experiment::RayJob job{.trace = options.job.columns,
@@ -137,6 +146,9 @@ void add_walk(Command& command) {
     command.option("--radius", options->radius, {.least = 0, .infinite = true},
                    "maximum radius [units of the positions]; 0 or inf: unlimited");
     command.option("--width", options->width, {1}, "image width that query_pixel counts with [pixels]");
+    command.flag("--candidates", job.candidates,
+                 "also tell which photons entered a search's list of the k nearest so far (columns candidate "
+                 "and query_candidate_bytes)");
     command.flag("--allow-overlaps", options->allow_overlaps,
                  "elements of brought visits may share bytes at their addresses");
     command.flag("--force", job.force, "overwrite a finished trace");

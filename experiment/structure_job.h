@@ -11,6 +11,7 @@ namespace regather::experiment {
 struct StructureJob {
     std::filesystem::path trace, folder;  ///< From, to.
     std::string structure;                ///< A spec of spatial/photons/structures.h.
+    bool candidates = false;              ///< Write the bits of spatial/photons/candidate_bits.h, too.
     bool force = false;                   ///< Overwrite a finished trace.
 };
 

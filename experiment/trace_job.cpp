@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "experiment/brought_queries.h"
+#include "experiment/walk_columns.h"
 #include "spatial/photons/photon_kd.h"
 #include "spatial/photons/structures.h"
 #include "trace/error.h"
@@ -29,7 +30,6 @@ std::string run(const TraceJob& job, const ProgressListener& progress) {
                                                trace::column_type<Vec3>());
     const BroughtQueries brought(job.columns);
     const std::span<const Vec3> positions = brought.positions();
-    const std::uint64_t queries = positions.size();
 
     std::vector<trace::Photon> photons(photon_positions.size());
     for (std::size_t i = 0; i < photons.size(); ++i) {
@@ -50,26 +50,15 @@ std::string run(const TraceJob& job, const ProgressListener& progress) {
     writer.column("photon").append(std::span<const trace::Photon>(heap));
     trace::TraceInfo info;
     brought.store(writer, info, job.width);
-    search->store(writer);
-    info.structure = spec.text;
-    info.structure_version = spec.entry->version;
-    constexpr std::uint64_t batch = 1 << 20;
-    for (std::uint64_t first = 0; first < queries || first == 0; first += batch) {
-        const auto points = positions.subspan(first, std::min(batch, queries - first));
-        const spatial::Recording walks = search->record(points, job.k, radius);
-        writer.column("query_walk_bytes").append(std::span<const std::uint32_t>(walks.walk_bytes));
-        writer.column("walk").append(std::span<const std::uint8_t>(walks.walks));
-        info.found_photons += walks.found_photons;
-        info.visited_nodes += walks.visited_nodes;
-        if (progress) progress("recording walks", "queries", first + points.size(), queries);
-    }
     info.k = job.k;
+    const std::string figures =
+        write_walks(spec, *search, positions, radius, job.candidates, writer, info, progress);
     info.photons = heap.size();
     info.parameters["radius"] = std::isfinite(radius) ? trace::Json(job.radius) : trace::Json();
     info.parameters["k"] = job.k;
     writer.finish(info);
-    return fmt::format("{} photons, {} queries, {} nodes visited\ntrace: {}\n", info.photons, info.queries,
-                       info.visited_nodes, job.folder.string());
+    return fmt::format("{} photons, {} queries, {} nodes visited\n{}trace: {}\n", info.photons, info.queries,
+                       info.visited_nodes, figures, job.folder.string());
 }
 
 }  // namespace regather::experiment

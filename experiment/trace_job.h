@@ -17,6 +17,7 @@ struct TraceJob {
     std::uint32_t width = 0;       ///< That query_pixel counts with [pixels]; 0: all in one row.
     double radius = 0;             ///< Of a search [units of the positions]; 0 or infinity: unlimited.
     std::string structure{"left-balanced-kd"};  ///< What is searched: a spec of spatial/photons/structures.h.
+    bool candidates = false;                    ///< Write the bits of spatial/photons/candidate_bits.h, too.
     bool force = false;                         ///< Overwrite a finished trace.
 };
 

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "replay/walk_run.h"
 #include "replay/walk_store.h"
+#include "spatial/photons/candidate_bits.h"
 #include "spatial/photons/photon_kd.h"
 #include "spatial/photons/structures.h"
 #include "spatial/rays/ray_structures.h"
@@ -64,6 +66,7 @@ public:
         if (is_of_rays_) {
             check_queries();
             check_walks();
+            check_candidates();
             return verified_;
         }
         if (trace_.has("photon")) check_photons();
@@ -71,6 +74,7 @@ public:
         for (const trace::ColumnEntry& entry : trace::column_table())
             if (entry.name.starts_with("ray_")) check_rays(entry.name);
         check_walks();
+        check_candidates();
         check_searches(progress);
         return verified_;
     }
@@ -187,6 +191,61 @@ private:
             refuse("visited_nodes", info_.visited_nodes, fmt::format("{}, the nodes of all walks", nodes));
     }
 
+    bool has_candidates() const { return trace_.has("candidate") || trace_.has("query_candidate_bytes"); }
+
+    void check_candidates() {
+        if (!has_candidates()) return;
+        const std::span<const std::uint32_t> lengths = trace_.column<std::uint32_t>("query_candidate_bytes");
+        const std::span<const std::uint8_t> bits = trace_.column<std::uint8_t>("candidate");
+        const WalkStore walks(trace_);
+        const spatial::Structure& structure = walks.structure();
+        const auto decoder = structure.decoder();
+        std::uint64_t at = 0, entered = 0;
+        for (std::uint64_t q = 0; q < lengths.size(); ++q) {
+            std::uint64_t looks = 0;
+            spatial::for_each_look(structure, decoder->decode(walks.walk(q)).elements,
+                                   [&looks](std::uint32_t) { ++looks; });
+            if (lengths[q] != (looks + 7) / 8)
+                refuse("query_candidate_bytes", q, text(lengths[q]),
+                       fmt::format("{}, a bit for each of {} photons looked at", (looks + 7) / 8, looks));
+            if (lengths[q] > bits.size() - at)
+                refuse("candidate", bits.size(), "the end", "more bytes, as query_candidate_bytes has it");
+            for (const std::uint8_t byte : bits.subspan(at, lengths[q]))
+                entered += static_cast<std::uint64_t>(std::popcount(byte));
+            at += lengths[q];
+            if (looks % 8 != 0 && (bits[at - 1] & 0xff >> looks % 8) != 0)
+                refuse("candidate", at - 1, fmt::format("{:08b}", bits[at - 1]),
+                       fmt::format("zeros behind {} bits", looks % 8));
+        }
+        if (at != bits.size())
+            refuse("candidate", at, "more bytes", "the end, as query_candidate_bytes has it");
+        if (entered < info_.found_photons)
+            refuse("found_photons", info_.found_photons,
+                   fmt::format("at most {}, the photons that entered the list by candidate.npy", entered));
+    }
+
+    /// Rows of bytes, one behind the other.
+    struct ByteRows {
+        std::span<const std::uint32_t> lengths{};
+        std::span<const std::uint8_t> bytes{};
+    };
+    /// That the rows in front are these; takes them away.
+    void take_same(ByteRows& stored, const ByteRows& expected, std::uint64_t first, std::string_view column,
+                   std::string_view what, const std::string& expectation) const {
+        std::uint64_t at = 0;
+        for (std::size_t i = 0; i < expected.lengths.size(); ++i) {
+            const std::uint32_t length = stored.lengths[i];
+            if (expected.lengths[i] != length ||
+                !std::equal(expected.bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                            expected.bytes.begin() + static_cast<std::ptrdiff_t>(at + length),
+                            stored.bytes.begin()))
+                refuse(column, first + i, std::string(what), expectation);
+            at += length;
+            stored.bytes = stored.bytes.subspan(length);
+        }
+        stored.lengths = stored.lengths.subspan(expected.lengths.size());
+    }
+
     void check_searches(const QueriesDone& progress) {
         const std::uint64_t most = info_.queries * std::min<std::uint64_t>(info_.k, info_.photons);
         if (info_.found_photons > most)
@@ -207,26 +266,23 @@ private:
                        fmt::format("{}", *other));
         }
         const std::span<const Vec3> positions = trace_.column<Vec3>("query_position");
-        const std::span<const std::uint32_t> lengths = trace_.column<std::uint32_t>("query_walk_bytes");
-        std::span<const std::uint8_t> walks = trace_.column<std::uint8_t>("walk");
+        ByteRows walks{trace_.column<std::uint32_t>("query_walk_bytes"), trace_.column<std::uint8_t>("walk")};
+        ByteRows candidates;
+        if (has_candidates())
+            candidates = {trace_.column<std::uint32_t>("query_candidate_bytes"),
+                          trace_.column<std::uint8_t>("candidate")};
+        const std::string search_for = fmt::format("the search for {} photons within {}", info_.k, *radius);
         std::uint64_t found = 0;
         constexpr std::uint64_t batch = 1 << 20;
         for (std::uint64_t first = 0; first < positions.size(); first += batch) {
             const std::span<const Vec3> points =
                 positions.subspan(first, std::min(batch, positions.size() - first));
-            const spatial::Recording again = search->record(points, info_.k, *radius);
-            std::size_t at = 0;
-            for (std::size_t i = 0; i < points.size(); ++i) {
-                const std::uint32_t length = lengths[first + i];
-                if (again.walk_bytes[i] != length ||
-                    !std::equal(again.walks.begin() + static_cast<std::ptrdiff_t>(at),
-                                again.walks.begin() + static_cast<std::ptrdiff_t>(at + length),
-                                walks.begin()))
-                    refuse("walk", first + i, "another walk",
-                           fmt::format("the one of the search for {} photons within {}", info_.k, *radius));
-                at += length;
-                walks = walks.subspan(length);
-            }
+            const spatial::Recording again = search->record(points, info_.k, *radius, has_candidates());
+            take_same(walks, {again.walk_bytes, again.walks}, first, "walk", "another walk",
+                      "the one of " + search_for);
+            if (has_candidates())
+                take_same(candidates, {again.candidate_bytes, again.candidates}, first, "candidate",
+                          "other bits", "those of " + search_for);
             found += again.found_photons;
             if (progress) progress(first + points.size());
         }

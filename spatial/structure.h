@@ -76,6 +76,9 @@ public:
     virtual std::uint32_t first_record(std::uint32_t element) const {
         return element - range_of(trace::Region::photons).first;
     }
+    /// Whether a walk comes back to elements whose photons it has looked at, each time from one of a greater
+    /// number; it comes to others from smaller ones.
+    virtual bool comes_back() const { return false; }
     /// Whether append_children() and roots() tell how elements hang together.
     virtual bool tells_children() const { return true; }
     /// What an element of Region::nodes or Region::directory takes, where a layout says nothing else [bytes].

@@ -64,6 +64,11 @@ constexpr ColumnEntry table[] = {
     {"query_walk_bytes", "query", "bytes", "length of the query's walk", column_type<std::uint32_t>, true},
     {"walk", "walk", "bits", "the walks one after the other, each starting on a byte",
      column_type<std::uint8_t>, true},
+    {"query_candidate_bytes", "query", "bytes", "length of the query's bits in candidate",
+     column_type<std::uint32_t>, false},
+    {"candidate", "candidate", "bits",
+     "for each photon that a walk looked at, whether it entered the list of the k nearest so far",
+     column_type<std::uint8_t>, false},
 #define REGATHER_RAY_COLUMNS(kind, meaning)                                                               \
     {"ray_" kind "_origin", "ray_" kind, "scene units", "origins of " meaning, column_type<Vec3>, false}, \
         {"ray_" kind "_direction", "ray_" kind,       "unit vector",                                      \
@@ -301,9 +306,11 @@ const MappedColumn& TraceReader::open(std::string_view name, const ColumnType& t
     const fs::path path = column_path(folder_, name);
     const auto digest = digests_.find(std::string(name));
     if (digest == digests_.end()) {
-        std::string why = name == "query_end" || name == "query_guess"
-                              ? "rays have it: regather walk TRACE --rays KIND"
-                              : "it was not captured: capture the scene again";
+        std::string why = "it was not captured: capture the scene again";
+        if (name == "query_end" || name == "query_guess")
+            why = "rays have it: regather walk TRACE --rays KIND";
+        if (name == "query_candidate_bytes" || name == "candidate")
+            why = "searches tell it: regather walk TRACE --candidates";
         for (const LeftOut& entry : info_.left_out)
             if (entry.what == name) why = entry.why;
         throw DataError(fmt::format("{}: found no such column ({}), expected {}",

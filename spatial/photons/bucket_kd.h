@@ -113,8 +113,9 @@ void nearest_by(const BucketKd& tree, Vec3 point, NearestSet& found, Listener& l
         const std::uint32_t leaf = at.element - inner;
         for (std::uint32_t place = leaf_begin[leaf]; place < leaf_begin[leaf + 1]; ++place) {
             const Vec3 to_point = point - tree.positions()[place];
-            found.offer(trace::dot(to_point, to_point), tree.photon_at()[place]);
-            if constexpr (requires { listener.look(place); }) listener.look(tree.photon_at()[place]);
+            const bool entered = found.offer(trace::dot(to_point, to_point), tree.photon_at()[place]);
+            if constexpr (requires { listener.look(place, entered); })
+                listener.look(tree.photon_at()[place], entered);
         }
         for (;;) {
             if (depth == 0) return;

@@ -23,7 +23,7 @@ public:
     void visit(std::uint32_t element) { walk_.visit(element); }
     void near(bool upper) { walk_.near(upper); }
     void far(bool entered) { walk_.far(entered); }
-    void look(std::uint32_t photon) { looked_.push_back(photon); }
+    void look(std::uint32_t photon, bool) { looked_.push_back(photon); }
 
     /// Ends a walk that found `found`; returns its bytes.
     std::uint32_t finish(const NearestSet& found) {

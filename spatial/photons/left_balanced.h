@@ -29,6 +29,7 @@ public:
     using LeftBalanced::LeftBalanced;
     std::string_view name() const override { return structure_name; }
     std::unique_ptr<WalkDecoder> decoder() const override;
+    bool comes_back() const override { return true; }
 };
 
 }  // namespace regather::spatial

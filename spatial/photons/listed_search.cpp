@@ -17,8 +17,9 @@ public:
         if (tells_found) structure_ = std::make_shared<WithFound>(structure_, text);
     }
     std::shared_ptr<const Structure> structure() const override { return structure_; }
-    Recording record(std::span<const Vec3> points, std::uint32_t k, float radius) const override {
-        return record_walks(index_, points, k, radius, tells_found_);
+    Recording record(std::span<const Vec3> points, std::uint32_t k, float radius,
+                     bool tells_candidates) const override {
+        return record_walks(index_, points, k, radius, {tells_found_, tells_candidates});
     }
     std::span<const std::uint32_t> photon_at() const override { return index_.parts().photon_at(); }
     void store(trace::TraceWriter& writer) const override {

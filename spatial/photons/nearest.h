@@ -36,19 +36,21 @@ public:
     }
     /// Nothing farther than this can be found any more; -1 when nothing can.
     float bound2() const { return capacity_ == 0 ? -1.0f : distance_of(bound_); }
-    void offer(float distance2, std::uint32_t node) {
+    /// Whether it is among the best so far.
+    bool offer(float distance2, std::uint32_t node) {
         const std::uint64_t candidate = key(distance2, node);
-        if (candidate >= bound_) return;
+        if (candidate >= bound_) return false;
         if (keys_.size() < capacity_) {
             keys_.push_back(candidate);
             if (keys_.size() == capacity_) {
                 std::make_heap(keys_.begin(), keys_.end());
                 bound_ = keys_.front();
             }
-            return;
+            return true;
         }
         replace_farthest(candidate);
         bound_ = keys_.front();
+        return true;
     }
 
     std::uint32_t capacity() const { return capacity_; }
@@ -103,7 +105,8 @@ private:
 };
 
 /// What a search tells: each node it enters, and its two decisions at each node that has a child. A listener
-/// that has look(photon) is told each photon whose distance is taken, too, as NearestSet numbers it.
+/// that has look(photon, entered) is told each photon whose distance is taken, too, as NearestSet numbers it,
+/// and whether it was among the best so far.
 struct Unheard {
     void visit(std::uint32_t) {}  ///< A node number, from 0; pre-order.
     void near(bool) {}            ///< After visit: is the upper (second) child the nearer one?
@@ -132,8 +135,8 @@ void nearest(const PhotonKd& tree, Vec3 point, NearestSet& found, Listener&& lis
             const Photon& photon = heap[slot];
             listener.visit(slot - 1);
             const Vec3 to_point = point - photon.position;
-            found.offer(trace::dot(to_point, to_point), slot - 1);
-            if constexpr (requires { listener.look(slot); }) listener.look(slot - 1);
+            const bool entered = found.offer(trace::dot(to_point, to_point), slot - 1);
+            if constexpr (requires { listener.look(slot, entered); }) listener.look(slot - 1, entered);
             const std::uint32_t children = 2 * slot;
             if (children > count) break;
             __builtin_prefetch(heap + children);

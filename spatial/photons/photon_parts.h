@@ -39,8 +39,9 @@ public:
         listener.visit(element);
         for (std::uint32_t place = begin_[part]; place < begin_[part + 1]; ++place) {
             const Vec3 to_point = point - positions_[place];
-            found.offer(trace::dot(to_point, to_point), photon_at_[place]);
-            if constexpr (requires { listener.look(place); }) listener.look(photon_at_[place]);
+            const bool entered = found.offer(trace::dot(to_point, to_point), photon_at_[place]);
+            if constexpr (requires { listener.look(place, entered); })
+                listener.look(photon_at_[place], entered);
         }
     }
 

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "spatial/list_walk.h"
+#include "spatial/photons/candidate_bits.h"
 #include "spatial/photons/found_walk.h"
 #include "spatial/photons/nearest.h"
 #include "spatial/walk.h"
@@ -19,13 +20,17 @@ Recording recorded(const Tree& tree, std::span<const Vec3> points, std::uint32_t
     constexpr bool tells_found = requires(Recorder recorder, const NearestSet& found) {
         recorder.finish(found);
     };
+    constexpr bool tells_candidates = requires(Recorder recorder) {
+        recorder.finish_candidates();
+    };
     constexpr std::size_t chunk_points = 4096;
     struct Chunk {
-        std::vector<std::uint8_t> walks;
+        std::vector<std::uint8_t> walks, candidates;
         std::uint64_t found = 0, visited = 0;
     };
     Recording all;
     all.walk_bytes.resize(points.size());
+    if (tells_candidates) all.candidate_bytes.resize(points.size());
     std::vector<Chunk> chunks((points.size() + chunk_points - 1) / chunk_points);
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
         NearestSet found(std::min(k, tree.size()), radius);
@@ -42,13 +47,17 @@ Recording recorded(const Tree& tree, std::span<const Vec3> points, std::uint32_t
                 all.walk_bytes[i] = recorder.finish(found);
             else
                 all.walk_bytes[i] = recorder.finish();
+            if constexpr (tells_candidates) all.candidate_bytes[i] = recorder.finish_candidates();
             chunks[c].found += found.size();
         }
         chunks[c].walks.assign(recorder.bytes().begin(), recorder.bytes().end());
+        if constexpr (tells_candidates)
+            chunks[c].candidates.assign(recorder.candidates().begin(), recorder.candidates().end());
         chunks[c].visited = recorder.visited_nodes();
     });
     for (const Chunk& chunk : chunks) {
         all.walks.insert(all.walks.end(), chunk.walks.begin(), chunk.walks.end());
+        all.candidates.insert(all.candidates.end(), chunk.candidates.begin(), chunk.candidates.end());
         all.found_photons += chunk.found;
         all.visited_nodes += chunk.visited + (tells_found ? chunk.found : 0);
     }
@@ -65,15 +74,20 @@ using RecorderOf = std::conditional_t<std::same_as<Tree, PhotonKd> || std::same_
 
 template <class Tree>
 Recording record_walks(const Tree& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
-                       bool tells_found) {
-    return tells_found ? recorded<BasicFoundRecorder<RecorderOf<Tree>>>(tree, points, k, radius)
-                       : recorded<RecorderOf<Tree>>(tree, points, k, radius);
+                       Telling telling) {
+    using Walk = RecorderOf<Tree>;
+    using WalkWithFound = BasicFoundRecorder<Walk>;
+    if (telling.candidates)
+        return telling.found ? recorded<CandidateRecorder<WalkWithFound>>(tree, points, k, radius)
+                             : recorded<CandidateRecorder<Walk>>(tree, points, k, radius);
+    return telling.found ? recorded<WalkWithFound>(tree, points, k, radius)
+                         : recorded<Walk>(tree, points, k, radius);
 }
-template Recording record_walks(const PhotonKd&, std::span<const Vec3>, std::uint32_t, float, bool);
-template Recording record_walks(const BucketKd&, std::span<const Vec3>, std::uint32_t, float, bool);
-template Recording record_walks(const PhotonGrid&, std::span<const Vec3>, std::uint32_t, float, bool);
-template Recording record_walks(const HashedGrid&, std::span<const Vec3>, std::uint32_t, float, bool);
-template Recording record_walks(const PhotonOctree&, std::span<const Vec3>, std::uint32_t, float, bool);
-template Recording record_walks(const PhotonBvh&, std::span<const Vec3>, std::uint32_t, float, bool);
+template Recording record_walks(const PhotonKd&, std::span<const Vec3>, std::uint32_t, float, Telling);
+template Recording record_walks(const BucketKd&, std::span<const Vec3>, std::uint32_t, float, Telling);
+template Recording record_walks(const PhotonGrid&, std::span<const Vec3>, std::uint32_t, float, Telling);
+template Recording record_walks(const HashedGrid&, std::span<const Vec3>, std::uint32_t, float, Telling);
+template Recording record_walks(const PhotonOctree&, std::span<const Vec3>, std::uint32_t, float, Telling);
+template Recording record_walks(const PhotonBvh&, std::span<const Vec3>, std::uint32_t, float, Telling);
 
 }  // namespace regather::spatial

@@ -19,14 +19,23 @@ struct Recording {
     /// One after the other (spatial/walk.h, list_walk.h, photons/found_walk.h).
     std::vector<std::uint8_t> walks;
     std::uint64_t found_photons = 0, visited_nodes = 0;
+    /// Of spatial/photons/candidate_bits.h, where they are told: bytes of each point's bits, and the bits.
+    std::vector<std::uint32_t> candidate_bytes;
+    std::vector<std::uint8_t> candidates;
+};
+
+/// What a recording tells besides walks.
+struct Telling {
+    bool found = false;       ///< Walks as found_walk.h has them; visited_nodes counts an element for each
+                              ///< photon found.
+    bool candidates = false;  ///< The bits of candidate_bits.h.
 };
 
 /// The walks of the `k` nearest photons within `radius` [scene units] of each point; a point that is not
-/// finite has an empty walk. `tells_found`: walks as found_walk.h has them, and visited_nodes counts an
-/// element for each photon found. The same on any number of threads.
+/// finite has an empty walk. The same on any number of threads.
 /// Tree: PhotonKd, BucketKd, PhotonGrid, HashedGrid, PhotonOctree or PhotonBvh.
 template <class Tree>
 Recording record_walks(const Tree& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
-                       bool tells_found = false);
+                       Telling telling = {});
 
 }  // namespace regather::spatial

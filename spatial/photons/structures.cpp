@@ -50,8 +50,9 @@ public:
         if (tells_found) structure_ = std::make_shared<WithFound>(structure_, std::move(text));
     }
     std::shared_ptr<const Structure> structure() const override { return structure_; }
-    Recording record(std::span<const Vec3> points, std::uint32_t k, float radius) const override {
-        Recording recording = record_walks(tree_, points, k, radius, tells_found_);
+    Recording record(std::span<const Vec3> points, std::uint32_t k, float radius,
+                     bool tells_candidates) const override {
+        Recording recording = record_walks(tree_, points, k, radius, {tells_found_, tells_candidates});
         if constexpr (std::same_as<Tree, StackFree>) recording.visited_nodes = visits(recording);
         return recording;
     }
@@ -97,8 +98,9 @@ public:
         if (tells_found) structure_ = std::make_shared<WithFound>(structure_, std::move(text));
     }
     std::shared_ptr<const Structure> structure() const override { return structure_; }
-    Recording record(std::span<const Vec3> points, std::uint32_t k, float radius) const override {
-        return record_walks(tree_, points, k, radius, tells_found_);
+    Recording record(std::span<const Vec3> points, std::uint32_t k, float radius,
+                     bool tells_candidates) const override {
+        return record_walks(tree_, points, k, radius, {tells_found_, tells_candidates});
     }
     std::span<const std::uint32_t> photon_at() const override { return tree_.photon_at(); }
     void store(trace::TraceWriter& writer) const override {

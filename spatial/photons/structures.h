@@ -20,8 +20,9 @@ class PhotonSearch {
 public:
     virtual ~PhotonSearch() = default;
     virtual std::shared_ptr<const Structure> structure() const = 0;
-    /// As record_walks().
-    virtual Recording record(std::span<const Vec3> points, std::uint32_t k, float radius) const = 0;
+    /// As record_walks(); the walks tell which photons were found where the structure's do.
+    virtual Recording record(std::span<const Vec3> points, std::uint32_t k, float radius,
+                             bool tells_candidates) const = 0;
     /// By place in the leaves, which photon lies there; empty where photons lie in their own order.
     virtual std::span<const std::uint32_t> photon_at() const = 0;
     /// Writes the columns that open_structure() reads beside `photon`.

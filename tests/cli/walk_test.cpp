@@ -216,9 +216,40 @@ TEST(WalkAgain, WalksThatTellWhatWasFoundReadPowerOfThatAlone) {
                    {"expected found=1"});
 }
 
+TEST(WalkAgain, CandidatesAreColumnsBesideTheSameWalks) {
+    const Scratch scratch;
+    const std::string from = (captured_box() / "trace").string();
+    for (const char* spec : {"left-balanced-stack-free", "midpoint-kd:leaf=6,found=1", "grid:cell=6"}) {
+        const std::string plain = (scratch / "plain").string(), to = (scratch / "to").string();
+        expect_done({"walk", from, "--structure", spec, "-o", plain, "--force"});
+        EXPECT_THAT(expect_done({"walk", from, "--structure", spec, "--candidates", "-o", to, "--force"}).out,
+                    HasSubstr("photons entered the list a query"));
+        EXPECT_THAT(expect_done({"info", to, "--verify"}).out, HasSubstr("query_candidate_bytes"));
+        const trace::TraceReader without(plain), with(to);
+        EXPECT_EQ(with.digests().at("walk"), without.digests().at("walk")) << spec;
+        EXPECT_FALSE(without.has("candidate"));
+        EXPECT_EQ(with.digests().at("query_candidate_bytes").rows, with.info().queries);
+        // Walked once more, they are another search's and are left behind unless they are asked for.
+        const std::string again = (scratch / "again").string();
+        expect_done({"walk", to, "--structure", "octree", "-o", again, "--force"});
+        EXPECT_FALSE(trace::TraceReader(again).has("candidate"));
+        EXPECT_FALSE(trace::TraceReader(again).has("query_candidate_bytes"));
+    }
+}
+
+TEST_F(Walk, CandidatesAreToldOfColumnsToo) {
+    expect_done(words({"--candidates"}));
+    expect_done({"info", trace_.string(), "--verify"});
+    trace::TraceReader trace(trace_);
+    EXPECT_EQ(trace.column<std::uint32_t>("query_candidate_bytes").size(), 4u);
+    EXPECT_FALSE(trace.column<std::uint8_t>("candidate").empty());
+}
+
 TEST(WalkAgain, WhatDoesNotFitIsRefused) {
     const Scratch scratch;
     const std::string from = (captured_box() / "trace").string(), to = (scratch / "t").string();
+    expect_refused(bad_usage, {"walk", from, "--rays", "gather", "--candidates", "-o", to},
+                   {"--candidates: found --rays"});
     expect_refused(bad_usage, {"walk", from, "--structure", "median", "-o", to},
                    {"unknown \"median\"", "nearest: median-kd"});
     expect_refused(bad_usage, {"walk", from, "--structure", "median-kd:leaf=65", "-o", to},

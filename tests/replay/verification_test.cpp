@@ -25,8 +25,8 @@ using trace::Vec3;
 struct Parts {
     std::vector<trace::Photon> photons;
     std::vector<Vec3> positions, directions;
-    std::vector<std::uint32_t> pixels, leaf_kd, walk_bytes;
-    std::vector<std::uint8_t> walks;
+    std::vector<std::uint32_t> pixels, leaf_kd, walk_bytes, candidate_bytes;
+    std::vector<std::uint8_t> walks, candidates;
     std::vector<float> extents;
     trace::TraceInfo info;
 
@@ -56,9 +56,11 @@ struct Parts {
     }
     void search(std::uint32_t k, float radius) {
         const spatial::Recording found =
-            spatial::record_walks(spatial::PhotonKd(photons), positions, k, radius);
+            spatial::record_walks(spatial::PhotonKd(photons), positions, k, radius, {.candidates = true});
         walk_bytes = found.walk_bytes;
         walks = found.walks;
+        candidate_bytes = found.candidate_bytes;
+        candidates = found.candidates;
         info.found_photons = found.found_photons;
         info.visited_nodes = found.visited_nodes;
     }
@@ -71,6 +73,9 @@ struct Parts {
         writer.column("query_leaf_kd").append(std::span<const std::uint32_t>(leaf_kd));
         writer.column("query_walk_bytes").append(std::span<const std::uint32_t>(walk_bytes));
         writer.column("walk").append(std::span<const std::uint8_t>(walks));
+        if (!candidate_bytes.empty())
+            writer.column("query_candidate_bytes").append(std::span<const std::uint32_t>(candidate_bytes));
+        if (!candidates.empty()) writer.column("candidate").append(std::span<const std::uint8_t>(candidates));
         writer.column("ray_eye_extent").append(std::span<const float>(extents));
         writer.finish(info);
     }
@@ -136,6 +141,47 @@ TEST(Verification, WhatDoesNotFitIsRefusedByFileAndRow) {
         {"found another walk", [](Parts& p) { p.positions[4].x = 0.4f; }},
     };
     for (const auto& [message, change] : cases) EXPECT_THAT(refusal(change), HasSubstr(message));
+}
+
+TEST(Verification, CandidatesThatDoNotFitAreRefusedByFileAndRow) {
+    // The tree has 37 photons in 6 levels: a walk looks at 6 photons or more, in bytes that start with 1.
+    const struct {
+        const char* message;
+        std::function<void(Parts&)> change;
+    } cases[] = {
+        {"accepted",
+         [](Parts& p) {
+             p.candidates.clear();
+             p.candidate_bytes.clear();
+         }},
+        {"candidate.npy: found no such column (searches tell it: regather walk TRACE --candidates)",
+         [](Parts& p) { p.candidates.clear(); }},
+        {"query_candidate_bytes.npy: found no such column", [](Parts& p) { p.candidate_bytes.clear(); }},
+        {"query_candidate_bytes.npy: row 2: found 7, expected ", [](Parts& p) { p.candidate_bytes[2] = 7; }},
+        {"query_candidate_bytes.npy: row 4: found 1, expected 0, a bit for each of 0 photons looked at",
+         [](Parts& p) { p.candidate_bytes[4] = 1; }},
+        {"found the end, expected more bytes, as query_candidate_bytes has it",
+         [](Parts& p) { p.candidates.pop_back(); }},
+        {"found more bytes, expected the end, as query_candidate_bytes has it",
+         [](Parts& p) { p.candidates.push_back(0); }},
+        {"trace.json: found_photons: found ",
+         [](Parts& p) { std::fill(p.candidates.begin(), p.candidates.end(), 0); }},
+        {"candidate.npy: row 0: found other bits, expected those of the search for 5 photons within 0.15",
+         [](Parts& p) { p.candidates[0] = static_cast<std::uint8_t>(p.candidates[0] ^ 0x40); }},
+    };
+    for (const auto& [message, change] : cases) EXPECT_THAT(refusal(change), HasSubstr(message));
+}
+
+TEST(Verification, EachBitOfTheCandidatesCounts) {
+    const std::size_t bytes = Parts().candidates.size();
+    ASSERT_GT(bytes, 4u);
+    for (std::size_t byte = 0; byte < bytes; ++byte)
+        for (int bit = 0; bit < 8; ++bit)
+            EXPECT_THAT(refusal([&](Parts& p) {
+                            p.candidates[byte] = static_cast<std::uint8_t>(p.candidates[byte] ^ 1 << bit);
+                        }),
+                        testing::AnyOf(HasSubstr("candidate.npy: "), HasSubstr("found_photons: ")))
+                << byte << ' ' << bit;
 }
 
 // Every bit of the walks that is changed is noticed, padding included.

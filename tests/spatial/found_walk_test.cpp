@@ -34,7 +34,7 @@ void expect_the_same(const auto& tree, const std::shared_ptr<const Structure>& s
                      std::span<const Vec3> points, std::uint32_t k, float radius) {
     const WithFound with(shape, "with");
     const Recording plain = record_walks(tree, points, k, radius),
-                    telling = record_walks(tree, points, k, radius, true);
+                    telling = record_walks(tree, points, k, radius, {.found = true});
     const auto plain_decoder = shape->decoder(), decoder = with.decoder();
     std::span<const std::uint8_t> plain_walks = plain.walks, walks = telling.walks;
     std::uint64_t visited = 0;
@@ -87,7 +87,7 @@ TEST(FoundWalk, OfFiveOnALineIsTheOneDrawnByHand) {
     // second and the third of four.
     const std::vector<Photon> heap = left_balanced(photons_on_a_line({0, 1, 2, 3, 4}));
     const std::vector<Vec3> point{{0.9f, 0, 0}};
-    const Recording walk = record_walks(PhotonKd(heap), point, 2, 10, true);
+    const Recording walk = record_walks(PhotonKd(heap), point, 2, 10, {.found = true});
     EXPECT_THAT(walk.walks, ElementsAre(0b0010'0000, 0b0110'0000));
     EXPECT_EQ(walk.visited_nodes, 6u);
     const WithFound structure(std::make_shared<LeftBalanced>(5), "left-balanced-kd:found=1");
@@ -103,7 +103,7 @@ TEST(FoundWalk, WhatIsTooShortOrTooLongIsTold) {
     const BucketKd tree(photons, {.rule = SplitRule::midpoint, .leaf_photons = 60, .radius = 0});
     const WithFound structure(tree.share_shape(), "with");
     const std::vector<Vec3> point{{0.4f, 0.5f, 0.6f}};
-    std::vector<std::uint8_t> walk = record_walks(tree, point, 20, 9, true).walks;
+    std::vector<std::uint8_t> walk = record_walks(tree, point, 20, 9, {.found = true}).walks;
     const auto decoder = structure.decoder();
     EXPECT_EQ(decoder->decode(walk).fault, WalkFault::none);
     EXPECT_EQ(decoder->decode(std::span(walk).first(walk.size() - 1)).fault, WalkFault::ends_early);

@@ -1,0 +1,43 @@
+#include "experiment/walk_columns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+
+namespace regather::experiment {
+
+std::string write_walks(const spatial::StructureSpec& spec, const spatial::PhotonSearch& search,
+                        std::span<const trace::Vec3> positions, float radius, bool candidates,
+                        trace::TraceWriter& writer, trace::TraceInfo& info,
+                        const ProgressListener& progress) {
+    search.store(writer);
+    info.structure = spec.text;
+    info.structure_version = spec.entry->version;
+    info.found_photons = info.visited_nodes = 0;
+    std::uint64_t entered = 0;
+    constexpr std::uint64_t batch = 1 << 20;
+    for (std::uint64_t first = 0; first < positions.size() || first == 0; first += batch) {
+        const auto points =
+            positions.subspan(first, std::min<std::uint64_t>(batch, positions.size() - first));
+        const spatial::Recording walks = search.record(points, info.k, radius, candidates);
+        writer.column("query_walk_bytes").append(std::span<const std::uint32_t>(walks.walk_bytes));
+        writer.column("walk").append(std::span<const std::uint8_t>(walks.walks));
+        if (candidates) {
+            writer.column("query_candidate_bytes")
+                .append(std::span<const std::uint32_t>(walks.candidate_bytes));
+            writer.column("candidate").append(std::span<const std::uint8_t>(walks.candidates));
+            for (const std::uint8_t byte : walks.candidates)
+                entered += static_cast<std::uint64_t>(std::popcount(byte));
+        }
+        info.found_photons += walks.found_photons;
+        info.visited_nodes += walks.visited_nodes;
+        if (progress) progress("recording walks", "queries", first + points.size(), positions.size());
+    }
+    const double queries = std::max<double>(1, static_cast<double>(positions.size()));
+    return candidates ? fmt::format("candidates: {:.1f} photons entered the list a query\n",
+                                    static_cast<double>(entered) / queries)
+                      : "";
+}
+
+}  // namespace regather::experiment

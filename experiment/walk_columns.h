@@ -1,0 +1,20 @@
+// experiment/walk_columns.h -- the columns of a trace that a search makes: its structure's and its walks'.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "experiment/progress.h"
+#include "spatial/photons/structures.h"
+#include "trace/folder.h"
+
+namespace regather::experiment {
+
+/// Searches for the info.k nearest photons of each position within `radius` [scene units], writes the columns
+/// and what trace.json says of them. With `candidates` also those of spatial/photons/candidate_bits.h.
+/// Returns figures beside those of trace.json, for people; may be empty.
+std::string write_walks(const spatial::StructureSpec& spec, const spatial::PhotonSearch& search,
+                        std::span<const trace::Vec3> positions, float radius, bool candidates,
+                        trace::TraceWriter& writer, trace::TraceInfo& info, const ProgressListener& progress);
+
+}  // namespace regather::experiment
