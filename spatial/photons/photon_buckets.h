@@ -6,6 +6,7 @@
 // spatial/photons/nearest.h finds, photon for photon. Written for AVX2, the baseline of the build: lanes of 8
 // on every machine. Lengths in scene units.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -66,6 +67,12 @@ public:
 
     std::uint32_t size() const { return size_; }
     std::size_t buckets() const { return leaves_.size(); }
+    /// Which photons lie in a bucket, in the order of its lanes. The i-th bucket holds the photons of the
+    /// i-th leaf of BucketKd by SplitRule::median with as many to a leaf (spatial/photons/bucket_kd.h).
+    std::span<const std::uint32_t> bucket(std::size_t i) const {
+        const std::size_t first = i * bucket_photons;
+        return {leaves_[i].node, std::min<std::size_t>(bucket_photons, size_ - first)};
+    }
 
 private:
     friend void nearest(const PhotonBuckets&, Vec3, Candidates&);

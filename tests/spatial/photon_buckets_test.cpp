@@ -1,11 +1,13 @@
 #include "spatial/photons/photon_buckets.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "spatial/photons/bucket_kd.h"
 #include "tests/spatial/brute_force.h"
 #include "tests/spatial/photons.h"
 #include "trace/error.h"
@@ -97,6 +99,26 @@ TEST(PhotonBuckets, EverySizeAroundTheShapesOfTheTreeFindsAllItsPhotons) {
             }
         }
     }
+}
+
+// What is raced and what is replayed as median-kd:leaf=16 are the same buckets.
+TEST(PhotonBuckets, AreTheLeavesOfTheMedianTree) {
+    const auto expect_the_same = [](const std::vector<Photon>& photons) {
+        const PhotonBuckets raced(photons);
+        const BucketKd replayed(photons, {.leaf_photons = PhotonBuckets::bucket_photons});
+        const std::span<const std::uint32_t> begin = replayed.shape().leaf_begin();
+        ASSERT_EQ(raced.buckets(), replayed.shape().leaves());
+        for (std::size_t i = 0; i < raced.buckets(); ++i) {
+            const std::span<const std::uint32_t> bucket = raced.bucket(i),
+                                                 leaf = replayed.photon_at().subspan(begin[i],
+                                                                                     begin[i + 1] - begin[i]);
+            ASSERT_THAT(bucket, testing::UnorderedElementsAreArray(leaf.begin(), leaf.end()))
+                << i << " of " << raced.buckets();
+        }
+    };
+    for (const std::size_t count : {0, 1, 16, 17, 33, 129, 2049}) expect_the_same(clustered_photons(count));
+    for (const auto cloud : {uniform_cloud, coplanar_photons, duplicate_photons, all_in_one_place, grid})
+        expect_the_same(cloud(12345));
 }
 
 TEST(PhotonBuckets, NoPhotonsOnePhotonAndNoneAskedFor) {
