@@ -73,7 +73,8 @@ bool is_done(const StructureJob& job) {
         trace::TraceReader made(job.folder);
         const trace::TraceInfo& info = made.info();
         if (info.structure != spec.text || info.structure_version != spec.entry->version ||
-            info.k != from.info().k || info.parameters != from.info().parameters || !same_queries(from, made))
+            info.k != from.info().k || info.parameters != from.info().parameters ||
+            made.has("candidate") != job.candidates || !same_queries(from, made))
             return false;
         made.verify_all();
         return true;
