@@ -1,7 +1,7 @@
 #!/bin/sh
-# make.sh REGATHER OUT [PART...]: makes the rows and charts of this folder again, in OUT/results; the capture and the walks are kept in OUT (2 GB).
+# make.sh REGATHER OUT [PART...]: makes the rows and charts of this folder again, in OUT/results; the capture and the walks are kept in OUT (1 GB).
 # Parts: capture, kinds (of rays), keys (bits of them), tiles, nodes (their formats), stack, treelets, frame, charts; all of them when none is named.
-# It runs in OUT, so that the rows' provenance names what lies there. About ten minutes on two cores.
+# It runs in OUT, so that the rows' provenance names what lies there.
 set -eu
 regather=$(realpath "$1")
 mkdir -p "$2/results"
@@ -10,10 +10,10 @@ shift 2
 parts=${*:-capture kinds keys tiles nodes stack treelets frame charts}
 sizes=16K,32K,64K,128K,256K,512K,1M:128:8
 
-# walk KIND SPEC: the rays of that kind through the structure, in a folder whose name is printed; what is there already is kept.
+# walk KIND SPEC [CAPTURE]: the rays of that kind through the structure, in a folder whose name is printed; what is there already is kept.
 walk() {
-    to=$(echo "$1-$2" | tr ':,=' '---')
-    [ -e "$to/trace.json" ] || "$regather" walk room/trace --rays "$1" --structure "$2" -o "$to" --force > /dev/null
+    to=$(echo "${3:+$3-}$1-$2" | tr ':,=' '---')
+    [ -e "$to/trace.json" ] || "$regather" walk "${3:-room}/trace" --rays "$1" --structure "$2" -o "$to" --force > /dev/null
     echo "$to"
 }
 # replay CSV KIND SPEC ARGUMENT...
@@ -29,14 +29,18 @@ frame() {
     csv=results/$1.csv
     orders=$2
     shift 2
-    [ -e "$csv" ] || "$regather" frame "$(walk eye bvh-4)" "$(walk shadow bvh-4)" "$(walk specular bvh-4)" "$(walk gather bvh-4)" room/trace \
+    [ -e "$csv" ] || "$regather" frame "$(walk eye bvh-4 small)" "$(walk shadow bvh-4 small)" "$(walk specular bvh-4 small)" \
+        "$(walk gather bvh-4 small)" small/trace \
         --order $orders "$@" --csv "$csv" > /dev/null
     echo "$(date +%T) $csv"
 }
 
 for part in $parts; do
     case $part in
-    capture) [ -e room/trace/trace.json ] || "$regather" capture room -o room --width 128 --height 128 > /dev/null ;;
+    capture)
+        [ -e room/trace/trace.json ] || "$regather" capture room -o room --width 128 --height 128 > /dev/null
+        [ -e small/trace/trace.json ] || "$regather" capture room -o small --width 64 --height 64 > /dev/null
+        ;;
     kinds)
         for kind in eye shadow specular gather; do
             replay "$kind" "$kind" bvh-4 --order naive random tiled direction-binned hilbert morton hashed bvh-leaf origin-direction origin-end \
@@ -74,16 +78,10 @@ for part in $parts; do
             origin-guess:tile=8 origin-guess:tile=16 origin-guess --buffers --cache 16K,32K,64K,128K,512K:128:8
         replay treelets-orders gather bvh-4:stack=4 --order random direction-binned origin-direction origin-guess --buffers \
             --cache 32K,128K:128:8 --treelets 16K --queue 13107,262144
-        replay treelets-quantised gather bvh-4:quantised=1,stack=4 --order naive direction-binned --cache 16K,32K,64K,128K:128:8 \
-            --treelets 8K,16K,32K --queue 13107,262144
-        replay treelets-machines gather bvh-4:stack=4 --order naive --machine paper-128k,cpu-sapphire-rapids,gpu-a100 \
-            --treelets 32K --queue 13107,262144
         ;;
     frame)
-        frame frame naive --unit pixel tile=16 frame --machine paper-128k,cpu-sapphire-rapids,gpu-a100
-        frame frame-sorted "naive naive naive origin-guess:tile=16 hilbert:tile=16" --unit tile=16 --machine paper-128k,cpu-sapphire-rapids,gpu-a100
-        frame frame-binned "naive naive naive direction-binned direction-binned" --unit tile=16 --machine paper-128k,cpu-sapphire-rapids,gpu-a100
-        frame frame-caches naive --unit pixel --cache 16K,32K,64K,128K,256K,512K,1M,2M,4M:128:8
+        frame frame naive --unit pixel tile=16 frame --machine paper-128k,cpu-sapphire-rapids
+        frame frame-sorted "naive naive naive origin-guess:tile=16 hilbert:tile=16" --unit tile=16 --machine paper-128k
         ;;
     charts)
         chart() {
