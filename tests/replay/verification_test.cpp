@@ -164,6 +164,10 @@ TEST(Verification, CandidatesThatDoNotFitAreRefusedByFileAndRow) {
          [](Parts& p) { p.candidates.pop_back(); }},
         {"found more bytes, expected the end, as query_candidate_bytes has it",
          [](Parts& p) { p.candidates.push_back(0); }},
+        {"expected zeros behind ",
+         [](Parts& p) {
+             for (std::uint8_t& byte : p.candidates) byte |= 1;
+         }},
         {"trace.json: found_photons: found ",
          [](Parts& p) { std::fill(p.candidates.begin(), p.candidates.end(), 0); }},
         {"candidate.npy: row 0: found other bits, expected those of the search for 5 photons within 0.15",
