@@ -318,10 +318,12 @@ private:
     }
 
     void draw(const Raster& raster, const Panel& panel, const Place& place) {
+        // gnuplot draws no image of one row or column: it is there twice.
+        const std::uint32_t columns = std::max(raster.width, 2u), rows = std::max(raster.height, 2u);
         say("unset logscale x\nunset logscale y\nset xrange [-0.5:{}.5]\nset yrange [{}.5:-0.5]\nset border "
             "15 "
             "lw 0.5\nunset xtics\nunset ytics\nunset grid\n",
-            raster.width - 1, raster.height - 1);
+            columns - 1, rows - 1);
         remark(panel, place);
         const bool is_last = &panel == &figure_.panels.back();
         if (is_last && figure_.colours) {
@@ -335,9 +337,11 @@ private:
             say(")\n");
         }
         say("plot '-' matrix with image pixels\n");
-        for (std::uint32_t y = 0; y < raster.height; ++y) {
-            for (std::uint32_t x = 0; x < raster.width; ++x) {
-                const std::uint64_t value = raster.values[std::size_t{y} * raster.width + x];
+        for (std::uint32_t row = 0; row < rows; ++row) {
+            const std::size_t y = std::min(row, raster.height - 1);
+            for (std::uint32_t column = 0; column < columns; ++column) {
+                const std::uint32_t x = std::min(column, raster.width - 1);
+                const std::uint64_t value = raster.values[y * raster.width + x];
                 if (value == 0) {
                     chart_.commands += "- ";
                 } else {

@@ -137,6 +137,12 @@ SetSample::SetSample(const WalkStore& walks, const Layout& layout, std::span<con
             const std::uint16_t number = size.sampled[(first_line + l) % size.classes];
             if (number != unsampled) size.touches[number] += touching;
         }
+        if (size.all_touches > 0 && std::accumulate(size.touches.begin(), size.touches.end(), 0.0) == 0)
+            throw trace::DataError(fmt::format(
+                "sampling: found no touched line of {} bytes in 1/{} of the sets by seed {}, expected some: "
+                "the "
+                "addresses are on few sets, which another seed, more sets or all of them would tell",
+                size.line_bytes, one_of, sampling.seed));
     }
 }
 

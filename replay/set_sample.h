@@ -30,7 +30,9 @@ LineUse count_line_use(const WalkStore& walks, const Layout& layout,
 
 class SetSample {
 public:
-    /// `use` is of the same walks and layout, which outlive the sample. Throws trace::UsageError as check().
+    /// `use` is of the same walks and layout, which outlive the sample. Throws trace::UsageError as check(),
+    /// and trace::DataError where lines are touched and none of those that count is in a sampled class:
+    /// nothing would tell of the others then.
     SetSample(const WalkStore& walks, const Layout& layout, std::span<const cachesim::CacheConfig> caches,
               const Sampling& sampling, const LineUse& use);
 

@@ -64,6 +64,22 @@ TEST(Layout, AHeatMapHasRoomForItsTitlesAndItsScale) {
                 IsEmpty());
 }
 
+TEST(Layout, AHeatMapOfOneRowOrColumnIsDrawn) {
+    // A rectangle a pixel and some for the colours' bar: as many as of two rows or columns that are the same.
+    const auto rectangles = [](std::uint32_t width, std::uint32_t height, std::vector<std::uint64_t> bytes) {
+        const std::vector<HeatMap> maps{{"naive", std::move(bytes)}};
+        const std::string svg = render(heat_map(maps, width, height, "queries"), Picture::svg);
+        std::size_t count = 0;
+        for (std::size_t at = svg.find("<polygon"); at != svg.npos; at = svg.find("<polygon", at + 1))
+            ++count;
+        return count;
+    };
+    EXPECT_EQ(rectangles(3, 1, {1, 5, 70}), rectangles(3, 2, {1, 5, 70, 1, 5, 70}));
+    EXPECT_EQ(rectangles(1, 3, {1, 5, 70}), rectangles(2, 3, {1, 1, 5, 5, 70, 70}));
+    EXPECT_EQ(rectangles(1, 1, {5}), rectangles(2, 2, {5, 5, 5, 5}));
+    EXPECT_EQ(rectangles(2, 2, {5, 5, 5, 5}), rectangles(2, 3, {5, 5, 5, 5, 5, 5}) - 2);
+}
+
 Figure crowded() {
     Line curve;
     curve.label = "a curve";

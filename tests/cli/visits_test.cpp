@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cachesim/cache_list.h"
+#include "experiment/traffic_map.h"
 #include "reorder/catalogue.h"
 #include "replay/layouts/catalogue.h"
 #include "results/csv.h"
@@ -118,6 +120,30 @@ TEST_F(Visits, OrderingsLayoutsCachesAndChartsRunOnThem) {
         {"chart", detail.string(), "--kind", "traffic-by-depth", "-o", (scratch_ / "charts").string()});
     expect_done({"chart", csv.string(), "-o", (scratch_ / "charts").string()});
     EXPECT_FALSE(fs::is_empty(scratch_ / "charts"));
+}
+
+TEST_F(Visits, AHeatMapAndASampleAreOfThem) {
+    const fs::path map = scratch_ / "map";
+    expect_done(words({"--width", "3"}));  // five queries, a pixel each: 3 x 2
+    expect_done(
+        {"heatmap", trace_.string(), "--order", "naive", "--cache", "1K:32:full", "-o", map.string()});
+    // Lines of 32 bytes that are first touched by each query: 0 and 1 | 2 | | 3 to 6 | .
+    trace::TraceReader trace(trace_);
+    const auto maps =
+        experiment::traffic_maps(trace, experiment::parse_orderings(std::vector<std::string>{"naive"}),
+                                 cachesim::parse_caches("1K:32:full")[0], {});
+    EXPECT_THAT(maps.at(0).bytes, ElementsAre(64, 32, 0, 128, 0, 0));
+    EXPECT_TRUE(fs::exists(map / "traffic.png"));
+
+    // Elements 64 KiB apart are all on set 0 of a cache with so large ways: by most seeds no sample is of it.
+    column<std::uint64_t>("element_address", {0, 65536, 131072, 196608, 262144, 327680, 393216});
+    column<std::uint32_t>("query_visits", {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1});
+    column<Vec3>("query_position", std::vector<Vec3>(11));
+    column<std::uint32_t>("visit_element", {0, 1, 2, 3, 4, 5, 6, 6, 5, 4, 3});
+    expect_done(words({"--force"}));
+    const std::vector<std::string> sampled{"replay",  trace_.string(), "--order",  "naive",
+                                           "--cache", "64K:64:4",      "--sample", "16"};
+    expect_refused(bad_data, sampled, {"sampling", "no touched line", "seed 1"});
 }
 
 TEST_F(Visits, AtTheirAddressesTheyShareTheLinesThatTheyShared) {

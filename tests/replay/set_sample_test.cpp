@@ -322,6 +322,31 @@ TEST(SetSample, RefusesWhatCannotBeSampled) {
                  trace::UsageError);
 }
 
+TEST(SetSample, ASampleThatNoLineIsInIsRefused) {
+    // Photons 512 bytes apart, on every eighth line: all in classes 0 and 8 of 16.
+    const Searched searched(2000, 120, 12);
+    const auto order = shuffled_queries(120, 2);
+    const std::vector<CacheConfig> caches{{16 * 4 * 64, 64, 4}};
+    const Placed apart{"apart", 0, 512, 20};
+    int refused = 0, taken = 0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        try {
+            const Replayed replayed = sampled(searched, order, caches, {8, seed}, apart);
+            EXPECT_GT(replayed.caches[0].misses, 0u) << seed;
+            ++taken;
+        } catch (const trace::DataError& error) {
+            EXPECT_THAT(error.what(),
+                        testing::AllOf(HasSubstr("no touched line of 64 bytes in 1/8 of the sets by seed " +
+                                                 std::to_string(seed)),
+                                       testing::Not(HasSubstr("\n"))));
+            ++refused;
+        }
+    }
+    // Two of the 16 classes are sampled: 14 x 13 of 16 x 15 samples have neither.
+    EXPECT_GT(refused, 20);
+    EXPECT_GT(taken, 2);
+}
+
 TEST(SetSample, ADamagedWalkIsRefused) {
     Searched searched(1000, 50, 10);
     const std::vector<CacheConfig> caches{{64 * 64, 64, 1}};
