@@ -231,7 +231,9 @@ Experiment load_experiment(const std::filesystem::path& path) {
         experiment.method.sampling = replay::Sampling{one_of, sample_seed};
     }
 
+    bool common = false;  // whether any has no caches of its own
     for (const Field& entry : entries(in, "orderings")) {
+        common |= !has(entry, "caches");
         for (const std::string& spec : specs(entry, "ordering", "caches")) {
             reorder::ParsedOrdering parsed =
                 entry.checked([&] { return reorder::parse_ordering(spec, path.parent_path()); });
@@ -244,6 +246,8 @@ Experiment load_experiment(const std::filesystem::path& path) {
                 replay::SetSample::check(experiment.trials.back().caches, *experiment.method.sampling);
             });
     }
+    if (!common && in.has("caches"))
+        in["caches"].refuse("found beside caches of each ordering, expected one or the other");
     refuse_repeated_rows(experiment.trials, in["orderings"]);
     return experiment;
 }

@@ -220,6 +220,15 @@ using SlowRunStructures = RunStructures;
 TEST_F(SlowRunStructures, KilledAfterAnyFileItEndsAsIfItHadNotBeen) {
     const fs::path whole = scratch_ / "whole";
     expect_done({"run", file_.string(), "-o", whole.string()});
+    // What is killed has 64 structures more ahead of it, so that no run ends before its kill.
+    std::string text = experiment;
+    std::string leaves = "1";
+    for (int leaf = 2; leaf <= 64; ++leaf) leaves += ", " + std::to_string(leaf);
+    const std::string last = "\"van-emde-boas-12+6:node=16\"]}";
+    ASSERT_NE(text.find(last), text.npos);
+    text.insert(text.find(last) + last.size(),
+                R"(, {"structure": "median-kd", "leaf": [)" + leaves + R"(], "layouts": ["heap-20"]})");
+    write(file_, text);
     const auto files = [&](const fs::path& where) {
         std::size_t found = 0;
         std::error_code gone;
@@ -232,10 +241,12 @@ TEST_F(SlowRunStructures, KilledAfterAnyFileItEndsAsIfItHadNotBeen) {
     for (const auto& [where, count] : std::vector<std::pair<fs::path, std::size_t>>{
              {"walks/octree-leaf-2-found-1", 3}, {"walks", 2}, {"parts", 30}, {"parts", 34}}) {
         Process run(words());
-        run.wait_until([&, where = where, count = count] { return files(where) >= count; });
+        ASSERT_TRUE(run.wait_until([&, where = where, count = count] { return files(where) >= count; }))
+            << run.outcome().err;
         run.send(SIGKILL);
-        run.outcome();
+        EXPECT_EQ(run.outcome().exit_code, -SIGKILL) << where << " " << count;
     }
+    write(file_, experiment);
     EXPECT_EQ(Process(words()).outcome().exit_code, 0);
     EXPECT_EQ(told_rows(), told(results::read_csv(whole / "rows.csv")));
 }

@@ -334,6 +334,20 @@ TEST_F(Run, TheSameRowTwiceIsRefused) {
     EXPECT_NO_THROW(experiment::load_experiment(file_));
 }
 
+TEST_F(Run, CachesThatNoOrderingUsesAreRefused) {
+    const std::string all = with("\"naive\", ", ""), own = R"("caches": [{"size": "1K"}]})";
+    const std::size_t from = all.find("\"orderings\"");
+    ASSERT_NE(from, all.npos);
+    refused(all.substr(0, from) + R"("orderings": [{"ordering": "naive", )" + own + "]}",
+            {"caches: found beside caches of each ordering, expected one or the other"});
+    // One ordering has none of its own.
+    write(file_, all.substr(0, from) + R"("orderings": ["hilbert", {"ordering": "naive", )" + own + "]}");
+    const experiment::Experiment loaded = experiment::load_experiment(file_);
+    ASSERT_EQ(loaded.trials.size(), 2u);
+    EXPECT_EQ(loaded.trials[0].caches.size(), 2u);
+    EXPECT_EQ(loaded.trials[1].caches.size(), 1u);
+}
+
 TEST_F(Run, AFileOfKeysLiesBesideTheExperiment) {
     expect_done(words());
     std::vector<std::uint16_t> keys(trace::TraceReader(folder_ / "trace").info().queries, 7);
