@@ -152,6 +152,11 @@ std::string run(const VisitsJob& job, const ProgressListener& progress) {
                         "photons to search or visits of a search",
                         job.columns.string()));
     refuse_unknown_columns(job.columns, known_columns);
+    if (job.allow_overlaps && !fs::exists(file_of(job.columns, "element_address"), error))
+        throw trace::UsageError(
+            fmt::format("--allow-overlaps: found {} without element_address.npy, expected addresses at which "
+                        "elements may share bytes",
+                        job.columns.string()));
     const BroughtQueries queries(job.columns);
     const fs::path visit_file = file_of(job.columns, "visit_element");
     const trace::MappedColumn visit_column(visit_file, trace::column_type<std::uint32_t>());

@@ -23,7 +23,7 @@ bool brings_visits(const std::filesystem::path& columns);
 /// Elements are numbered by region, within a region as they were. Returns figures and the folder, for people.
 /// Throws trace::DataError for a column that is missing, unknown or of another length, for lists that do not
 /// add up, elements beyond the structure, and as spatial::check_elements(); trace::UsageError as
-/// trace::TraceWriter.
+/// trace::TraceWriter, and for allow_overlaps without addresses.
 std::string run(const VisitsJob& job, const ProgressListener& progress);
 
 }  // namespace regather::experiment

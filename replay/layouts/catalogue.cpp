@@ -46,7 +46,7 @@ constexpr std::array<TriangleRecord, 2> of_triangles{{
 }};
 
 constexpr trace::Parameter parameters[] = {
-    {"line", "128", "bytes of the line that a cluster fills, a power of two from 16 to 4096"},
+    {"line", "", "bytes of the line that a cluster fills, a power of two from 16 to 4096; 128"},
     {"node", "",
      "bytes of an inner node that holds no photon, or of a directory's entry, 4 to 1024; the structure's"},
     {"top", "0", "levels from the root that are kept on chip, 0 to 40"},
@@ -215,7 +215,7 @@ Layout make_layout(std::string_view spec, const spatial::Structure& structure,
     const std::uint32_t triangle_bytes =
         of_rays ? row(of_triangles, "record of a triangle", name.substr(dash + 1)).bytes : 0;
     const trace::Parameters given(name, parameters, spec.substr(std::min(colon + 1, spec.size())));
-    const std::uint32_t line = given.count("line"),
+    const std::uint32_t line = given.given_count("line").value_or(128),
                         node = given.given_count("node").value_or(structure.node_bytes()),
                         top = given.count("top");
     trace::require_range(name, "line", line, 16, 4096);
@@ -230,6 +230,15 @@ Layout make_layout(std::string_view spec, const spatial::Structure& structure,
     const bool nodes = !owns && (structure.range_of(trace::Region::nodes).count > 0 ||
                                  structure.range_of(trace::Region::directory).count > 0);
     check_suits(order, record, structure);
+    if (!clusters && given.given_count("line"))
+        throw trace::UsageError(
+            fmt::format("{}: line: found {}, expected none: only clusters fill lines", name, line));
+    if ((owns || (!nodes && structure.range_of(trace::Region::photons).count > 1)) &&
+        given.given_count("node"))
+        throw trace::UsageError(
+            fmt::format("{}: node: found {}, expected none: {}", name, node,
+                        owns ? "elements say how many bytes they take"
+                             : fmt::format("the inner nodes of {} are photons", structure.name())));
     if (record.apart_bytes > 0 && structure.end() > 0 &&
         structure.range_of(trace::Region::photon_power).count == 0)
         throw trace::UsageError(

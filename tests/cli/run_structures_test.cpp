@@ -190,6 +190,9 @@ TEST_F(RunStructures, WhatDoesNotFitTogetherIsRefusedBeforeTheCapture) {
     refused("\"heap-20\"", "\"heep-20\"", {"layouts[0]", "order \"heep\"", "nearest: heap"});
     refused("\"heap-20\"", "\"heap-12+6\"", {"layouts[0]", "12+6", "found=1"});
     refused("\"heap-20\"", "\"heap-20:top=41\"", {"layouts[0]", "top", "41"});
+    refused("\"heap-20\"", "\"heap-20:line=64\"", {"layouts[0]", "line: found 64", "only clusters"});
+    refused("\"heap-20\"", "\"heap-20:node=8\"",
+            {"layouts[0]", "node: found 8", "the inner nodes of left-balanced-kd are photons"});
     refused("\"heap-20\"", "\"van-emde-boas-32\"", {"layouts[1]", "van-emde-boas-32 a second time"});
     refused("\"heap-20\"", "20", {"layouts[0]", "found 20", "the name of a layout"});
     refused("[\"heap-20\", \"van-emde-boas-32\"]", "[]", {"layouts", "at least one"});

@@ -249,6 +249,8 @@ TEST_F(Visits, WhatContradictsBroughtWalksIsRefused) {
     for (const char* option : {"--k", "--radius", "--structure"})
         expect_refused(bad_usage, words({option, std::string(option) == "--structure" ? "grid" : "5"}),
                        {"visit_element.npy", option});
+    expect_refused(bad_usage, words({"--allow-overlaps"}),
+                   {"--allow-overlaps", "without element_address.npy"});
     column<Vec3>("photon_position", {{0, 0, 0}});
     refused({"photon_position.npy beside visit_element.npy"});
     fs::remove(columns_ / "photon_position.npy");
@@ -265,6 +267,13 @@ TEST_F(Visits, WhatContradictsBroughtWalksIsRefused) {
     for (const char* layout : {"heap-20", "given-own", "depth-first-own", "hilbert-own"})
         expect_refused(bad_usage, {"replay", trace_.string(), "--order", "naive", "--layout", layout},
                        {"layout"});
+    const auto with_layout = [&](const char* layout) {
+        return std::vector<std::string>{"replay", trace_.string(), "--order", "naive", "--layout", layout};
+    };
+    expect_refused(bad_usage, with_layout("heap-own:node=8"),
+                   {"heap-own: node: found 8, expected none", "elements say"});
+    expect_refused(bad_usage, with_layout("heap-own:line=64"),
+                   {"heap-own: line: found 64, expected none", "only clusters"});
 }
 
 }  // namespace

@@ -175,7 +175,8 @@ TEST(WalkAgain, InEveryStructureTheSamePhotonsAreFound) {
         }
         const std::vector<results::Row> rows =
             results::from_csv(expect_done({"replay", to, "--order", "random", "naive", "--layout", "heap-20",
-                                           "depth-first-32:node=16", "--cache", "4K:128:8", "4M:128:full"})
+                                           buckets ? "depth-first-32:node=16" : "depth-first-32", "--cache",
+                                           "4K:128:8", "4M:128:full"})
                                   .out,
                               "stdout");
         ASSERT_EQ(rows.size(), 8u);
