@@ -42,6 +42,8 @@ constexpr ChartKind kinds_table[] = {
     {"timeline", "Misses over the run", "rows by slice of the run", any<results::TimelineRow>, timeline},
     {"sampling-error", "Set sampling: error against run time", "rows of sampled runs",
      any<results::SamplingRow>, sampling_error},
+    {"frame-traffic", "A frame's rays and searches, together and apart",
+     "rows of a frame's traces, together and apart", any<results::FrameRow>, frame_traffic},
     {"error-by-time", "Error against run time", "rows of settings with total_seconds and rmse",
      any<results::ConvergenceRow>, error_by_time},
     {"error-by-render-time", "Error against render time", "rows of settings with render_seconds and rmse",

@@ -21,6 +21,8 @@ Chart traffic_by_layout(const ChartKind& kind, const results::Rows& rows, const 
 Chart traffic_by_depth(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart timeline(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart sampling_error(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
+// Traces of one frame, together and apart.
+Chart frame_traffic(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 // Settings of the renderer.
 Chart error_by_time(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart error_by_render_time(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);

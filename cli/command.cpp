@@ -125,12 +125,12 @@ CLI::Option* add_single(CLI::App& app, std::string_view names, std::string_view 
 /// An option of one word or more, which `take` is given all at once.
 template <class Take>
 CLI::Option* add_several(CLI::App& app, std::string_view names, std::string_view help, const char* type,
-                         const std::string& fallback, Take take) {
+                         const std::string& fallback, Take take, bool repeats = false) {
     CLI::Option* option = app.add_option(
         std::string(names),
-        [name = long_name(names), take = std::move(take)](const Words& words) {
+        [name = long_name(names), take = std::move(take), repeats](const Words& words) {
             for (const std::string& word : words) not_empty(name, word);
-            refuse_repeated(name, words);
+            if (!repeats) refuse_repeated(name, words);
             take(name, words);
             return true;
         },
@@ -275,6 +275,13 @@ Command::Option Command::choice(std::string_view names, std::string& to, std::ve
 Command::Option Command::list(std::string_view names, std::vector<std::string>& to, std::string_view help) {
     return Option(add_several(*app_, names, help, names.starts_with('-') ? "TEXT" : "", joined(to, " "),
                               [&to](const std::string&, const Words& words) { to = words; }));
+}
+
+Command::Option Command::sequence(std::string_view names, std::vector<std::string>& to,
+                                  std::string_view help) {
+    return Option(add_several(
+        *app_, names, help, "TEXT", joined(to, " "),
+        [&to](const std::string&, const Words& words) { to = words; }, true));
 }
 
 Command::Option Command::comma_list(std::string_view names, std::vector<std::string>& to,

@@ -71,7 +71,9 @@ public:
                   std::string_view help);
     /// Every word up to the next option.
     Option list(std::string_view names, std::vector<std::string>& to, std::string_view help);
-    /// Likewise; commas separate, too.
+    /// Likewise, one word for each of several things: the same may be there again.
+    Option sequence(std::string_view names, std::vector<std::string>& to, std::string_view help);
+    /// As list(); commas separate, too.
     Option comma_list(std::string_view names, std::vector<std::string>& to, std::string_view help);
     Option comma_list(std::string_view names, std::vector<std::uint32_t>& to, Whole range,
                       std::string_view help);

@@ -11,6 +11,7 @@ constexpr Subcommand table[] = {
      add_reference},
     {"walk", "make a trace of your own photons and queries (.npy columns)", add_walk},
     {"replay", "put a trace's queries into orders; count misses and traffic", add_replay},
+    {"frame", "rays and photon queries of one frame through one hierarchy, together and apart", add_frame},
     {"structures", "list the structures that a trace's queries can be searched in", add_structures},
     {"layouts", "list the layouts that a replay can choose: where each node lies in memory", add_layouts},
     {"detail", "tell apart which data misses in a cache, why, and when", add_detail},

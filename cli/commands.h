@@ -24,6 +24,7 @@ void add_capture(Command& command);
 void add_reference(Command& command);
 void add_walk(Command& command);
 void add_replay(Command& command);
+void add_frame(Command& command);
 void add_detail(Command& command);
 void add_heatmap(Command& command);
 void add_race(Command& command);

@@ -59,11 +59,10 @@ std::vector<results::CacheRow> rows_of(std::span<const cachesim::PolicyRow> simu
     return rows;
 }
 
-bool took_part(const Hierarchy& hierarchy, trace::Region region) {
-    if (hierarchy.dram() && hierarchy.dram()->stats(region) != DramStats{}) return true;
-    for (std::size_t level = 0; level < hierarchy.levels(); ++level)
-        if (hierarchy.stats(level, region) != LevelStats{}) return true;
-    return false;
+bool took_part(const cachesim::HierarchyCounts& counts, std::size_t region) {
+    return counts.dram[region] != DramStats{} ||
+           std::any_of(counts.levels.begin(), counts.levels.end(),
+                       [&](const auto& level) { return level[region] != LevelStats{}; });
 }
 
 }  // namespace
@@ -158,22 +157,22 @@ std::vector<Machine> load_machines(std::string_view list) {
     return machines;
 }
 
-std::vector<results::MachineRow> machine_rows(const Machine& machine, const Hierarchy& hierarchy) {
+std::vector<results::MachineRow> machine_rows(const Machine& machine,
+                                              const cachesim::HierarchyCounts& counts) {
     std::vector<results::MachineRow> rows;
     const auto each_region = [&](std::string_view level, const auto& fill) {
         for (std::size_t r = 0; r < trace::region_count; ++r) {
-            const auto region = static_cast<trace::Region>(r);
-            if (!took_part(hierarchy, region)) continue;
+            if (!took_part(counts, r)) continue;
             results::MachineRow& row = rows.emplace_back();
             row.machine = machine.name;
             row.level = level;
             row.region = trace::region_names[r];
-            fill(row, region);
+            fill(row, r);
         }
     };
-    for (std::size_t level = 0; level < hierarchy.levels(); ++level)
-        each_region(machine.levels[level].name, [&](results::MachineRow& row, trace::Region region) {
-            const LevelStats& stats = hierarchy.stats(level, region);
+    for (std::size_t level = 0; level < counts.levels.size(); ++level)
+        each_region(machine.levels[level].name, [&](results::MachineRow& row, std::size_t region) {
+            const LevelStats& stats = counts.levels[level][region];
             row.accesses = stats.accesses;
             row.hits = stats.hits;
             row.misses = stats.misses;
@@ -188,15 +187,15 @@ std::vector<results::MachineRow> machine_rows(const Machine& machine, const Hier
             row.bytes_in = stats.bytes_in;
             row.bytes_out = stats.bytes_out;
         });
-    if (const cachesim::Dram* const dram = hierarchy.dram())
-        each_region("dram", [&](results::MachineRow& row, trace::Region region) {
-            const DramStats& stats = dram->stats(region);
+    if (machine.dram)
+        each_region("dram", [&](results::MachineRow& row, std::size_t region) {
+            const DramStats& stats = counts.dram[region];
             row.bursts_read = stats.bursts_read;
             row.bursts_written = stats.bursts_written;
             row.row_hits = stats.row_hits;
             row.row_empty = stats.row_empty;
             row.row_conflicts = stats.row_conflicts;
-            row.picojoules = dram->picojoules(stats);
+            row.picojoules = cachesim::picojoules(*machine.dram, stats);
         });
     return rows;
 }
@@ -216,7 +215,7 @@ std::vector<results::MachineRow> sweep_machines(std::span<const Machine> machine
     std::vector<results::MachineRow> rows;
     for (std::size_t i = 0; i < machines.size(); ++i) {
         hierarchies[i].flush();
-        for (results::MachineRow& row : machine_rows(machines[i], hierarchies[i]))
+        for (results::MachineRow& row : machine_rows(machines[i], hierarchies[i].counts()))
             rows.push_back(std::move(row));
     }
     return rows;

@@ -56,9 +56,10 @@ std::vector<results::CacheRow> sweep_all_lru(const cachesim::AddressFiles& files
 std::vector<cachesim::Machine> load_machines(std::string_view list);
 
 /// One row for each region that did anything and each level, and for the DRAM if there is one. A column that
-/// does not apply to a row is empty. docs/machines.md has the columns.
+/// does not apply to a row is empty. docs/machines.md has the columns. `counts` are of the machine's
+/// hierarchy.
 std::vector<results::MachineRow> machine_rows(const cachesim::Machine& machine,
-                                              const cachesim::Hierarchy& hierarchy);
+                                              const cachesim::HierarchyCounts& counts);
 
 /// The trace, read once, through each machine from empty to flushed. All is charged to Region::other.
 std::vector<results::MachineRow> sweep_machines(std::span<const cachesim::Machine> machines,

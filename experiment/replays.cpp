@@ -74,7 +74,7 @@ std::vector<results::MachineRow> through_machines(Measurement& measurement,
                 measurement.order(*parsed.ordering), systems,
                 listening(progress, "replaying " + parsed.spec.text + on, "queries", measurement.queries()));
             for (std::size_t m = 0; m < machines.size(); ++m)
-                for (results::MachineRow& row : machine_rows(machines[m], systems[m])) {
+                for (results::MachineRow& row : machine_rows(machines[m], systems[m].counts())) {
                     row.scene = measurement.info().scene;
                     row.structure = measurement.structure_name();
                     row.layout = measurement.layout().name();

@@ -38,12 +38,21 @@ void check(const DramConfig& c) {
            fmt::format("at most {} banks in all channels and ranks", max_dram_banks));
 }
 
+namespace {
+
+constexpr std::uint64_t DramStats::*dram_counts[] = {&DramStats::bursts_read, &DramStats::bursts_written,
+                                                     &DramStats::row_hits, &DramStats::row_empty,
+                                                     &DramStats::row_conflicts};
+
+}  // namespace
+
 DramStats& DramStats::operator+=(const DramStats& other) {
-    bursts_read += other.bursts_read;
-    bursts_written += other.bursts_written;
-    row_hits += other.row_hits;
-    row_empty += other.row_empty;
-    row_conflicts += other.row_conflicts;
+    for (const auto count : dram_counts) this->*count += other.*count;
+    return *this;
+}
+
+DramStats& DramStats::operator-=(const DramStats& earlier) {
+    for (const auto count : dram_counts) this->*count -= earlier.*count;
     return *this;
 }
 
@@ -104,9 +113,9 @@ DramStats Dram::total() const {
     return sum;
 }
 
-std::uint64_t Dram::picojoules(const DramStats& stats) const {
-    return (stats.row_empty + stats.row_conflicts) * config_.activate_pj +
-           stats.bursts_read * config_.read_pj + stats.bursts_written * config_.write_pj;
+std::uint64_t picojoules(const DramConfig& config, const DramStats& stats) {
+    return (stats.row_empty + stats.row_conflicts) * config.activate_pj + stats.bursts_read * config.read_pj +
+           stats.bursts_written * config.write_pj;
 }
 
 }  // namespace regather::cachesim

@@ -50,7 +50,11 @@ struct DramStats {
     std::uint64_t row_hits = 0, row_empty = 0, row_conflicts = 0;  ///< Their sum is that of the bursts.
     friend bool operator==(const DramStats&, const DramStats&) = default;
     DramStats& operator+=(const DramStats& other);
+    DramStats& operator-=(const DramStats& earlier);  ///< Of the same memory, and no later.
 };
+
+/// [pJ]
+std::uint64_t picojoules(const DramConfig& config, const DramStats& stats);
 
 class Dram {
 public:
@@ -62,7 +66,7 @@ public:
     const DramConfig& config() const { return config_; }
     const DramStats& stats(trace::Region region) const { return stats_[static_cast<std::size_t>(region)]; }
     DramStats total() const;
-    std::uint64_t picojoules(const DramStats& stats) const;
+    std::uint64_t picojoules(const DramStats& stats) const { return cachesim::picojoules(config_, stats); }
 
     struct Place {
         std::uint64_t channel, rank, bank, row;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 #include "trace/error.h"
 
@@ -29,15 +30,47 @@ void count(LevelStats& stats, bool held, bool hit) {
     if (held && !hit) ++stats.sector_misses;
 }
 
+constexpr std::uint64_t LevelStats::*level_counts[] = {&LevelStats::accesses,
+                                                       &LevelStats::hits,
+                                                       &LevelStats::misses,
+                                                       &LevelStats::sector_misses,
+                                                       &LevelStats::victim_hits,
+                                                       &LevelStats::writebacks,
+                                                       &LevelStats::clean_victims,
+                                                       &LevelStats::passed_writes,
+                                                       &LevelStats::back_invalidations,
+                                                       &LevelStats::prefetches,
+                                                       &LevelStats::useful_prefetches,
+                                                       &LevelStats::bytes_in,
+                                                       &LevelStats::bytes_out};
+
 }  // namespace
 
 LevelStats& LevelStats::operator+=(const LevelStats& other) {
-    for (const auto count :
-         {&LevelStats::accesses, &LevelStats::hits, &LevelStats::misses, &LevelStats::sector_misses,
-          &LevelStats::victim_hits, &LevelStats::writebacks, &LevelStats::clean_victims,
-          &LevelStats::passed_writes, &LevelStats::back_invalidations, &LevelStats::prefetches,
-          &LevelStats::useful_prefetches, &LevelStats::bytes_in, &LevelStats::bytes_out})
-        this->*count += other.*count;
+    for (const auto count : level_counts) this->*count += other.*count;
+    return *this;
+}
+
+LevelStats& LevelStats::operator-=(const LevelStats& earlier) {
+    for (const auto count : level_counts) this->*count -= earlier.*count;
+    return *this;
+}
+
+HierarchyCounts& HierarchyCounts::operator+=(const HierarchyCounts& other) {
+    assert(levels.size() == other.levels.size());
+    for (std::size_t r = 0; r < trace::region_count; ++r) {
+        for (std::size_t l = 0; l < levels.size(); ++l) levels[l][r] += other.levels[l][r];
+        dram[r] += other.dram[r];
+    }
+    return *this;
+}
+
+HierarchyCounts& HierarchyCounts::operator-=(const HierarchyCounts& earlier) {
+    assert(levels.size() == earlier.levels.size());
+    for (std::size_t r = 0; r < trace::region_count; ++r) {
+        for (std::size_t l = 0; l < levels.size(); ++l) levels[l][r] -= earlier.levels[l][r];
+        dram[r] -= earlier.dram[r];
+    }
     return *this;
 }
 
@@ -341,6 +374,15 @@ std::uint64_t Hierarchy::bytes_of(Sectors sectors) const {
 
 bool Hierarchy::exclusive(std::size_t level) const {
     return level < levels_.size() && levels_[level].is(Inclusion::exclusive);
+}
+
+HierarchyCounts Hierarchy::counts() const {
+    HierarchyCounts counts;
+    for (const Level& level : levels_) counts.levels.push_back(level.stats);
+    if (dram_)
+        for (std::size_t r = 0; r < trace::region_count; ++r)
+            counts.dram[r] = dram_->stats(static_cast<trace::Region>(r));
+    return counts;
 }
 
 LevelStats Hierarchy::total(std::size_t level) const {

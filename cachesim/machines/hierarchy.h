@@ -70,7 +70,18 @@ struct LevelStats {
     std::uint64_t bytes_in = 0;            ///< From below.
     std::uint64_t bytes_out = 0;           ///< To below.
     LevelStats& operator+=(const LevelStats& other);
+    LevelStats& operator-=(const LevelStats& earlier);  ///< Of the same level, and no later.
     friend bool operator==(const LevelStats&, const LevelStats&) = default;
+};
+
+/// What all levels and the memory counted, by region.
+struct HierarchyCounts {
+    std::vector<std::array<LevelStats, trace::region_count>> levels;  ///< Nearest first.
+    std::array<DramStats, trace::region_count> dram{};                ///< 0 without one.
+    /// Of hierarchies with as many levels.
+    HierarchyCounts& operator+=(const HierarchyCounts& other);
+    HierarchyCounts& operator-=(const HierarchyCounts& earlier);
+    friend bool operator==(const HierarchyCounts&, const HierarchyCounts&) = default;
 };
 
 class Hierarchy {
@@ -89,6 +100,7 @@ public:
         return levels_[level].stats[static_cast<std::size_t>(region)];
     }
     LevelStats total(std::size_t level) const;
+    HierarchyCounts counts() const;
     const Dram* dram() const { return dram_ ? &*dram_ : nullptr; }
 
     /// Whether a level or its victim buffer has the line, if only a sector of it.

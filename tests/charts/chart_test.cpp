@@ -143,7 +143,7 @@ TEST(Chart, AnUnknownKindIsRefusedWithTheKnownOnes) {
             error.what(),
             "chart \"pie\" is not known, expected one of traffic-by-tile, traffic-by-cache, cost-by-tile, "
             "cost-by-bins, misses-by-class, net-benefit, best-under-budget, traffic-by-frame, "
-            "traffic-by-layout, traffic-by-depth, timeline, sampling-error, error-by-time, "
+            "traffic-by-layout, traffic-by-depth, timeline, sampling-error, frame-traffic, error-by-time, "
             "error-by-render-time, efficiency, bias-by-photons, bias-by-k, stability");
     }
 }

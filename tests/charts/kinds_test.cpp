@@ -64,6 +64,53 @@ TEST(MissesByClass, ClassesMustSumToTheMissesUnlessSampled) {
     EXPECT_EQ(compose("misses-by-class", only(rows)).skipped, "no row has compulsory, capacity and conflict");
 }
 
+FrameRow framed(std::string run, std::string part, std::string level, std::uint64_t bytes_in) {
+    FrameRow row;
+    row.scene = "room";
+    row.unit = "pixel";
+    row.run = std::move(run);
+    row.part = std::move(part);
+    row.ordering = row.parameters = "naive";
+    row.machine = "mine";
+    row.level = std::move(level);
+    row.region = "nodes";
+    row.bytes_in = bytes_in;
+    return row;
+}
+
+TEST(FrameTraffic, StacksThePartsOfEachRunAtTheLastLevel) {
+    std::vector<FrameRow> rows{
+        framed("together", "eye rays", "L1", 9000), framed("together", "eye rays", "L2", 500),
+        framed("together", "photons", "L2", 3000), framed("apart", "eye rays", "L2", 700),
+        framed("apart", "photons", "L2", 2000)};
+    rows[2].bytes_out = 64;
+    rows.push_back(rows[2]);  // another region of the same part
+    rows.back().region = "photons";
+    std::rotate(rows.begin() + 3, rows.end() - 1, rows.end());
+    FrameRow dram = framed("apart", "photons", "dram", 0);
+    dram.bytes_in.reset();
+    dram.bursts_read = 7;
+    rows.push_back(dram);
+    const Chart chart = compose("frame-traffic", Rows(rows));
+    const std::string text = script(chart, Picture::svg);
+    // left, right, bottom, top; the first run is the upper bar.
+    EXPECT_THAT(text, HasSubstr("$box_0_0 << EOD\n0 500 1.08 1.54\n"));
+    EXPECT_THAT(text, HasSubstr("$box_0_1 << EOD\n500 6628 1.08 1.54\n"));
+    EXPECT_THAT(text, HasSubstr("$box_0_2 << EOD\n0 700 0.08 0.54\n"));
+    EXPECT_THAT(text, HasSubstr("$box_0_3 << EOD\n700 2700 0.08 0.54\n"));
+    EXPECT_THAT(text, Not(HasSubstr("$box_0_4")));
+    for (const char* label :
+         {"'pixel, together'", "'pixel, apart'", "'6.63 kB'", "'2.70 kB'", "'eye rays'", "'photons'"})
+        EXPECT_THAT(text, HasSubstr(label));
+    EXPECT_EQ(chart.caption, "room · mine · naive · unit of a turn, then how it ran");
+    rows.back() = framed("apart", "gather rays", "L2", 5);
+    rows.back().parameters = "hilbert";
+    EXPECT_THAT(script(compose("frame-traffic", Rows(rows)), Picture::svg),
+                HasSubstr("'pixel, apart, naive, hilbert'"));
+    EXPECT_EQ(compose("frame-traffic", Rows(std::vector<FrameRow>{dram})).skipped,
+              "needs rows of a frame's traces, together and apart");
+}
+
 TEST(TrafficByLayout, ALineAStructureAndLayoutWithItsFloor) {
     std::vector<Row> rows = {made_row("naive", {}, {}, 9000), made_row("hilbert", {}, {}, 700),
                              made_row("naive", {}, {}, 5000), made_row("hilbert", {}, {}, 90)};

@@ -25,6 +25,7 @@ const std::vector<Conflict>& conflicts() {
         std::vector<Conflict> all{
             {replay, {"--sample", "2"}, {"--classes"}},
             {replay, {"--sample", "2"}, {"--buffers"}},
+            {{"frame", "none", "--order", "naive"}, {"--machine", "paper-128k"}, {"--cache", "1K:64:1"}},
             {{"stability"}, {"--list"}, {"--quick"}},
             {{"stability"}, {"--list"}, {"--output", "x"}},
             {capture, {"--mode", "direct"}, {"--gather-rays", "4"}},
@@ -74,6 +75,7 @@ TEST(Conflicts, AnOptionThatNeedsAnotherIsRefusedWithoutIt) {
     for (const auto& [words, option, needed] : std::vector<std::tuple<Words, Words, std::string>>{
              {{"replay", "none", "--order", "naive"}, {"--seed", "3"}, "--sample"},
              {{"replay", "none", "--order", "naive"}, {"--force"}, "--csv"},
+             {{"frame", "none", "--order", "naive"}, {"--force"}, "--csv"},
              {{"detail", "none", "--order", "naive"}, {"--slices", "3"}, "--timeline"},
              {{"detail", "none", "--order", "naive"}, {"--force"}, "--csv"},
              {{"race", "none"}, {"--force"}, "--csv"},
@@ -146,6 +148,7 @@ TEST(Words, TheSameTwiceInAListIsRefused) {
              {{"replay", "none", "--order", "naive", "--cache", "1K:64:1", "1024:64:1"}, {"1024:64:1 twice"}},
              {{"replay", "none", "--order", "naive", "--machine", "paper-128k,paper-128k"},
               {"paper-128k twice"}},
+             {{"frame", "none", "--order", "naive", "--unit", "frame", "frame"}, {"--unit", "'frame' twice"}},
              {{"race", "none", "--structure", "bucketed,bucketed"}, {"--structure", "'bucketed' twice"}},
              {{"cachesim", "none", "--all-lru", "--line", "32,64,32"}, {"--line 32", "twice"}},
              {{"cachesim", "none", "--all-lru", "--line", "1024,1K"}, {"--line 1024", "twice"}},

@@ -316,6 +316,24 @@ TEST(Csv, WritesRacesCachesAndMachinesAsDrawnByHand) {
         "bytes_in,"
         "bytes_out,bursts_read,bursts_written,row_hits,row_empty,row_conflicts,picojoules\n"
         ",,heap-20,,,\"mine, \"\"the\"\" first\",L2,photons,5,,,,,,,,,,,,64,,,,,,0.5\n");
+    FrameRow frame;
+    static_cast<MachineRow&>(frame) = machine;
+    frame.scene = "room";
+    frame.frame = 3;
+    frame.unit = "tile=16";
+    frame.run = "apart";
+    frame.part = "gather rays";
+    frame.queries = 9;
+    EXPECT_EQ(
+        to_csv<FrameRow>(std::span(&frame, 1)),
+        "scene,frame,unit,run,part,structure,layout,ordering,parameters,machine,level,region,queries,"
+        "accesses,"
+        "hits,misses,sector_misses,victim_hits,writebacks,clean_victims,writes_through,back_invalidations,"
+        "prefetches,useful_prefetches,bytes_in,bytes_out,bursts_read,bursts_written,row_hits,row_empty,"
+        "row_conflicts,picojoules\n"
+        "room,3,tile=16,apart,gather rays,,heap-20,,,\"mine, \"\"the\"\" "
+        "first\",L2,photons,9,5,,,,,,,,,,,,64,"
+        ",,,,,0.5\n");
 }
 
 TEST(Csv, RefusesBadCellsAndMissingColumnsOfTheOtherKinds) {
