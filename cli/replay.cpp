@@ -11,6 +11,7 @@
 #include "cli/version.h"
 #include "experiment/address_sweep.h"
 #include "experiment/replays.h"
+#include "experiment/treelet_replay.h"
 #include "results/csv.h"
 #include "results/provenance.h"
 #include "results/traffic_table.h"
@@ -27,6 +28,8 @@ struct Options {
     bool classes = false, buffers = false, force = false;
     std::uint32_t one_of = 1;
     std::uint64_t seed = 1;
+    std::vector<std::string> treelets;
+    std::vector<std::uint32_t> queued;
 };
 
 void run(const Options& options, const Console& console) {
@@ -40,18 +43,19 @@ void run(const Options& options, const Console& console) {
     }
     std::vector<cachesim::Machine> machines;
     if (!options.machines.empty()) machines = experiment::load_machines(options.machines);
+    const auto treelets = experiment::treelet_configs(options.treelets, options.queued);
     trace::TraceReader trace(options.trace);
     experiment::Measurement measurement(trace, reads, trace::parse_size(options.onchip));
+    const experiment::Replays replays{options.layouts, orderings, treelets};
     std::string csv, table;
     Progress progress(console);
     if (machines.empty()) {
-        const auto rows = experiment::through_caches(measurement, options.layouts, orderings, caches, method,
-                                                     progress.listener());
+        const auto rows =
+            experiment::through_caches(measurement, replays, caches, method, progress.listener());
         csv = results::to_csv(rows);
         table = results::traffic_text(rows);
     } else {
-        const auto rows = experiment::through_machines(measurement, options.layouts, orderings, machines,
-                                                       progress.listener());
+        const auto rows = experiment::through_machines(measurement, replays, machines, progress.listener());
         csv = results::to_csv<results::MachineRow>(rows);
         table = results::text_of(results::table_of<results::MachineRow>(rows));
     }
@@ -93,11 +97,19 @@ void add_replay(Command& command) {
     command.option("--sample", options->one_of, {1, 1024},
                    "simulate one set of so many (2, 4, ... 1024) and estimate; 1: all");
     command.option("--seed", options->seed, {}, "which sets are sampled");
+    command.comma_list("--treelets", options->treelets,
+                       "of rays: each ordering also feeds queues at treelets of so many bytes, in rows of "
+                       "their own, ORDERING+treelets");
+    command.comma_list("--queue", options->queued, {1, replay::most_queued_rays},
+                       "rays under way in those queues at most");
     command.option("--onchip", options->onchip, "bytes that the chip can buffer");
     command.option("--csv", options->csv, "write the rows here, and X.json beside X.csv");
     command.flag("--force", options->force, "overwrite the CSV");
     command.conflict("--machine", {"--cache", "--classes", "--buffers", "--sample", "--seed"});
     command.conflict("--sample", {"--classes", "--buffers"});
+    command.conflict("--treelets", {"--classes", "--sample"});
+    command.needs("--treelets", {"--queue"});
+    command.needs("--queue", {"--treelets"});
     command.needs("--seed", {"--sample"});
     command.needs("--force", {"--csv"});
     command.footer(

@@ -95,13 +95,45 @@ std::string Measurement::structure_name() const {
     return name;
 }
 
+results::Row Measurement::row(const reorder::ParsedOrdering& parsed, const reorder::Ordered& ordered,
+                              const cachesim::CacheConfig& cache) const {
+    const reorder::OrderingSpec& spec = parsed.spec;
+    const reorder::Cost& cost = ordered.cost;
+    results::Row row;
+    row.scene = trace_.info().scene;
+    if (trace_.info().frame) row.frame = *trace_.info().frame;
+    row.ordering = spec.name;
+    if (spec.tile) row.tile = *spec.tile;
+    if (spec.bins) row.bins = *spec.bins;
+    row.parameters = spec.text;
+    row.structure = structure_name();
+    row.layout = layout_.name();
+    row.policy = "lru";
+    row.cache_bytes = cache.size_bytes;
+    row.line_bytes = cache.line_bytes;
+    row.ways = cache.ways;
+    row.queries = ordered.permutation.size();
+    row.oracle_bytes = trace_.info().found_photons * sizeof(trace::Photon);
+    if (const auto known = compulsory_bytes.find(cache.line_bytes); known != compulsory_bytes.end())
+        row.compulsory_bytes = known->second;
+    row.onchip_bytes = onchip_bytes_;
+    row.keys = cost.keys;
+    row.key_ops = cost.key_ops;
+    row.sort_passes = cost.sort_passes;
+    row.moved_records = cost.moved_records;
+    row.buffered_bytes = cost.buffered_bytes;
+    row.reorder_bytes = cost.reorder_bytes;
+    row.recast_rays = cost.recast_rays;
+    row.stalls = cost.stalls;
+    row.order_seconds = ordered.seconds;
+    return row;
+}
+
 std::vector<results::Row> Measurement::rows(const reorder::ParsedOrdering& parsed,
                                             const reorder::Ordered& ordered,
                                             std::span<const cachesim::CacheConfig> caches,
                                             const std::function<void(std::uint64_t)>& progress) const {
     const replay::Replayed replayed = this->replayed(ordered.permutation, caches, progress);
-    const reorder::OrderingSpec& spec = parsed.spec;
-    const reorder::Cost& cost = ordered.cost;
     std::vector<replay::BufferedTraffic> buffered;
     if (method_.buffers) {
         const reorder::BufferUse use = buffer_use(*parsed.ordering, ordered);
@@ -111,26 +143,9 @@ std::vector<results::Row> Measurement::rows(const reorder::ParsedOrdering& parse
     }
     std::vector<results::Row> rows;
     for (const replay::CacheTraffic& traffic : replayed.caches) {
-        results::Row row;
-        row.scene = trace_.info().scene;
-        if (trace_.info().frame) row.frame = *trace_.info().frame;
-        row.ordering = spec.name;
-        if (spec.tile) row.tile = *spec.tile;
-        if (spec.bins) row.bins = *spec.bins;
-        row.parameters = spec.text;
-        row.structure = structure_name();
-        row.layout = layout_.name();
-        row.policy = "lru";
-        row.cache_bytes = traffic.config.size_bytes;
-        row.line_bytes = traffic.config.line_bytes;
-        row.ways = traffic.config.ways;
-        row.queries = ordered.permutation.size();
+        results::Row row = this->row(parsed, ordered, traffic.config);
         row.accesses = traffic.accesses;
         row.raw_bytes = replayed.raw_bytes;
-        row.oracle_bytes = trace_.info().found_photons * sizeof(trace::Photon);
-        if (const auto known = compulsory_bytes.find(traffic.config.line_bytes);
-            known != compulsory_bytes.end())
-            row.compulsory_bytes = known->second;
         row.misses = traffic.misses;
         row.traffic_bytes = traffic.traffic_bytes;
         if (traffic.classes) {
@@ -145,22 +160,12 @@ std::vector<results::Row> Measurement::rows(const reorder::ParsedOrdering& parse
             row.misses_low = traffic.error->low;
             row.misses_high = traffic.error->high;
         }
-        row.onchip_bytes = onchip_bytes_;
         if (!buffered.empty()) {
             const replay::BufferedTraffic& both = buffered[rows.size()];
             row.buffer_traffic_bytes = both.photon_bytes + both.buffer_bytes - traffic.traffic_bytes;
-        } else if (method_.buffers && cost.reorder_bytes == 0) {
+        } else if (method_.buffers && ordered.cost.reorder_bytes == 0) {
             row.buffer_traffic_bytes = 0;
         }
-        row.keys = cost.keys;
-        row.key_ops = cost.key_ops;
-        row.sort_passes = cost.sort_passes;
-        row.moved_records = cost.moved_records;
-        row.buffered_bytes = cost.buffered_bytes;
-        row.reorder_bytes = cost.reorder_bytes;
-        row.recast_rays = cost.recast_rays;
-        row.stalls = cost.stalls;
-        row.order_seconds = ordered.seconds;
         row.replay_seconds = replayed.seconds;
         rows.push_back(std::move(row));
     }

@@ -68,6 +68,10 @@ public:
     /// In place of prepare() without sampling: what it found before, of these caches or more.
     void prepare(const replay::Revisits& revisits, const Method& method);
 
+    /// All that a row says but what a replay finds. The ordering's cost is that of `ordered`.
+    results::Row row(const reorder::ParsedOrdering& parsed, const reorder::Ordered& ordered,
+                     const cachesim::CacheConfig& cache) const;
+    std::uint64_t onchip_bytes() const { return onchip_bytes_; }
     /// A row for each cache, in their order, all of them prepared. Any number of threads may call.
     std::vector<results::Row> rows(const reorder::ParsedOrdering& parsed, const reorder::Ordered& ordered,
                                    std::span<const cachesim::CacheConfig> caches,

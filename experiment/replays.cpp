@@ -5,6 +5,7 @@
 #include <set>
 
 #include "experiment/address_sweep.h"
+#include "experiment/treelet_replay.h"
 #include "replay/layouts/catalogue.h"
 #include "results/benefit.h"
 #include "trace/error.h"
@@ -31,57 +32,80 @@ std::vector<replay::Layout> laid_out(const Measurement& measurement, std::span<c
 
 }  // namespace
 
-std::vector<results::Row> through_caches(Measurement& measurement, std::span<const std::string> layouts,
-                                         std::span<const reorder::ParsedOrdering> orderings,
+std::vector<results::Row> through_caches(Measurement& measurement, const Replays& replays,
                                          std::span<const cachesim::CacheConfig> caches, const Method& method,
                                          const ProgressListener& progress) {
+    if (!replays.treelets.empty()) replay::hierarchy_of(measurement.walks());
     std::set<std::uint32_t> lines;
     for (const cachesim::CacheConfig& cache : caches) lines.insert(cache.line_bytes);
     std::vector<results::Row> rows;
-    for (replay::Layout& layout : laid_out(measurement, layouts)) {
-        const std::string on = layouts.size() > 1 ? fmt::format(" on {}", layout.name()) : "";
+    for (replay::Layout& layout : laid_out(measurement, replays.layouts)) {
+        const std::string on = replays.layouts.size() > 1 ? fmt::format(" on {}", layout.name()) : "";
         measurement.lay_out(std::move(layout));
         measurement.find_compulsory(std::vector<std::uint32_t>(lines.begin(), lines.end()));
         measurement.prepare(
             caches, method,
             listening(progress, "counting what no order changes" + on, "queries", measurement.queries()));
         std::vector<results::Row> of_layout;
-        for (const reorder::ParsedOrdering& parsed : orderings)
-            for (results::Row& row :
-                 measurement.rows(parsed, measurement.order(*parsed.ordering), caches,
-                                  listening(progress, "replaying " + parsed.spec.text + on, "queries",
-                                            measurement.queries())))
-                of_layout.push_back(std::move(row));
+        const auto add = [&](std::vector<results::Row> more) {
+            for (results::Row& row : more) of_layout.push_back(std::move(row));
+        };
+        for (const reorder::ParsedOrdering& parsed : replays.orderings) {
+            const reorder::Ordered ordered = measurement.order(*parsed.ordering);
+            add(measurement.rows(
+                parsed, ordered, caches,
+                listening(progress, "replaying " + parsed.spec.text + on, "queries", measurement.queries())));
+            for (const replay::TreeletConfig& treelets : replays.treelets)
+                add(treelet_rows(
+                    measurement, {parsed, ordered, treelets}, caches,
+                    listening(progress, "queueing " + parsed.spec.text + on, "rays", measurement.queries())));
+        }
         results::fill_net_benefit(of_layout);
         rows.insert(rows.end(), of_layout.begin(), of_layout.end());
     }
     return rows;
 }
 
-std::vector<results::MachineRow> through_machines(Measurement& measurement,
-                                                  std::span<const std::string> layouts,
-                                                  std::span<const reorder::ParsedOrdering> orderings,
+std::vector<results::MachineRow> through_machines(Measurement& measurement, const Replays& replays,
                                                   std::span<const cachesim::Machine> machines,
                                                   const ProgressListener& progress) {
+    if (!replays.treelets.empty()) replay::hierarchy_of(measurement.walks());
     std::vector<results::MachineRow> rows;
-    for (replay::Layout& layout : laid_out(measurement, layouts)) {
-        const std::string on = layouts.size() > 1 ? fmt::format(" on {}", layout.name()) : "";
+    for (replay::Layout& layout : laid_out(measurement, replays.layouts)) {
+        const std::string on = replays.layouts.size() > 1 ? fmt::format(" on {}", layout.name()) : "";
         measurement.lay_out(std::move(layout));
-        for (const reorder::ParsedOrdering& parsed : orderings) {
-            std::vector<cachesim::Hierarchy> systems;
-            for (const cachesim::Machine& machine : machines) systems.push_back(machine.hierarchy());
-            measurement.through(
-                measurement.order(*parsed.ordering), systems,
-                listening(progress, "replaying " + parsed.spec.text + on, "queries", measurement.queries()));
+        const auto add = [&](const reorder::OrderingSpec& spec,
+                             std::span<const cachesim::Hierarchy> systems) {
             for (std::size_t m = 0; m < machines.size(); ++m)
                 for (results::MachineRow& row : machine_rows(machines[m], systems[m].counts())) {
                     row.scene = measurement.info().scene;
                     row.structure = measurement.structure_name();
                     row.layout = measurement.layout().name();
-                    row.ordering = parsed.spec.name;
-                    row.parameters = parsed.spec.text;
+                    row.ordering = spec.name;
+                    row.parameters = spec.text;
                     rows.push_back(std::move(row));
                 }
+        };
+        const auto systems = [&] {
+            std::vector<cachesim::Hierarchy> empty;
+            for (const cachesim::Machine& machine : machines) empty.push_back(machine.hierarchy());
+            return empty;
+        };
+        for (const reorder::ParsedOrdering& parsed : replays.orderings) {
+            const reorder::Ordered ordered = measurement.order(*parsed.ordering);
+            std::vector<cachesim::Hierarchy> plain = systems();
+            measurement.through(
+                ordered, plain,
+                listening(progress, "replaying " + parsed.spec.text + on, "queries", measurement.queries()));
+            add(parsed.spec, plain);
+            for (const replay::TreeletConfig& treelets : replays.treelets) {
+                std::vector<cachesim::Hierarchy> queued = systems();
+                const TreeletFeed feed{parsed, ordered, treelets};
+                through_treelets(
+                    measurement, feed, queued,
+                    listening(progress, "queueing " + parsed.spec.text + on, "rays", measurement.queries()));
+                add(spec_of(feed), queued);
+            }
         }
     }
     return rows;

@@ -25,6 +25,8 @@ const std::vector<Conflict>& conflicts() {
         std::vector<Conflict> all{
             {replay, {"--sample", "2"}, {"--classes"}},
             {replay, {"--sample", "2"}, {"--buffers"}},
+            {replay + Words{"--queue", "9"}, {"--treelets", "1K"}, {"--classes"}},
+            {replay + Words{"--queue", "9"}, {"--treelets", "1K"}, {"--sample", "2"}},
             {{"frame", "none", "--order", "naive"}, {"--machine", "paper-128k"}, {"--cache", "1K:64:1"}},
             {{"stability"}, {"--list"}, {"--quick"}},
             {{"stability"}, {"--list"}, {"--output", "x"}},
@@ -75,6 +77,8 @@ TEST(Conflicts, AnOptionThatNeedsAnotherIsRefusedWithoutIt) {
     for (const auto& [words, option, needed] : std::vector<std::tuple<Words, Words, std::string>>{
              {{"replay", "none", "--order", "naive"}, {"--seed", "3"}, "--sample"},
              {{"replay", "none", "--order", "naive"}, {"--force"}, "--csv"},
+             {{"replay", "none", "--order", "naive"}, {"--treelets", "1K"}, "--queue"},
+             {{"replay", "none", "--order", "naive"}, {"--queue", "9"}, "--treelets"},
              {{"frame", "none", "--order", "naive"}, {"--force"}, "--csv"},
              {{"detail", "none", "--order", "naive"}, {"--slices", "3"}, "--timeline"},
              {{"detail", "none", "--order", "naive"}, {"--force"}, "--csv"},
@@ -148,6 +152,8 @@ TEST(Words, TheSameTwiceInAListIsRefused) {
              {{"replay", "none", "--order", "naive", "--cache", "1K:64:1", "1024:64:1"}, {"1024:64:1 twice"}},
              {{"replay", "none", "--order", "naive", "--machine", "paper-128k,paper-128k"},
               {"paper-128k twice"}},
+             {{"replay", "none", "--order", "naive", "--queue", "9", "--treelets", "1K,1024"},
+              {"1024", "9", "twice"}},
              {{"frame", "none", "--order", "naive", "--unit", "frame", "frame"}, {"--unit", "'frame' twice"}},
              {{"race", "none", "--structure", "bucketed,bucketed"}, {"--structure", "'bucketed' twice"}},
              {{"cachesim", "none", "--all-lru", "--line", "32,64,32"}, {"--line 32", "twice"}},

@@ -1,7 +1,8 @@
-// `regather walk --rays`: a captured trace's rays as a trace of their own.
+// `regather walk --rays`: a captured trace's rays as a trace of their own; and in treelet queues.
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 #include "results/csv.h"
 #include "spatial/rays/ray_structures.h"
@@ -180,6 +181,66 @@ TEST(Rays, ADamagedTraceIsRefused) {
     refused("\"structure_version\": 1", "\"structure_version\": 2", {"structure_version: found 2"});
     refused("\"photons\": 0", "\"photons\": 3", {"photons: found 3", "rows of photon"});
     refused("\"k\": 0", "\"k\": 5", {"found no photon"});
+}
+
+TEST(TreeletQueues, OneTreeletIsThePlainOrderAndSmallOnesCost) {
+    const Scratch scratch;
+    const std::string gather = walked(scratch, "gather", "bvh-4").string(),
+                      csv = (scratch / "t.csv").string();
+    const std::vector<std::string> words{
+        "replay",     gather,  "--order", "naive", "origin-end:bits=4", "--cache", "1K:64:2",  "16K:64:full",
+        "--treelets", "1G,1K", "--queue", "50",    "--onchip",          "1K",      "--buffers"};
+    expect_done(words + std::vector<std::string>{"--csv", csv});
+    const auto rows = results::read_csv(csv);
+    ASSERT_EQ(rows.size(), 12u);
+    for (std::size_t order = 0; order < 2; ++order)
+        for (std::size_t cache = 0; cache < 2; ++cache) {
+            const results::Row &plain = rows[order * 6 + cache], &one = rows[order * 6 + 2 + cache],
+                               &small = rows[order * 6 + 4 + cache];
+            EXPECT_EQ(one.misses, plain.misses);
+            EXPECT_EQ(one.accesses, plain.accesses);
+            EXPECT_EQ(one.raw_bytes, plain.raw_bytes);
+            EXPECT_EQ(one.compulsory_bytes, plain.compulsory_bytes);
+            EXPECT_EQ(one.reorder_bytes, plain.reorder_bytes);
+            EXPECT_EQ(one.buffer_traffic_bytes, plain.buffer_traffic_bytes);
+            EXPECT_EQ(one.moved_records, plain.moved_records);
+            EXPECT_EQ(small.accesses, plain.accesses);
+            EXPECT_EQ(small.raw_bytes, plain.raw_bytes);
+            const std::uint64_t pushes = *small.moved_records - *plain.moved_records;
+            EXPECT_GT(pushes, 0u);
+            EXPECT_GE(*small.reorder_bytes - *plain.reorder_bytes, 2 * 48 * pushes);
+            EXPECT_GT(small.buffer_traffic_bytes, 0u);
+            EXPECT_GE(*small.buffered_bytes - *plain.buffered_bytes, 50u * 48);
+        }
+    EXPECT_EQ(rows[2].ordering, "naive+treelets");
+    EXPECT_EQ(rows[2].parameters, "naive+treelets:treelet=1073741824,rays=50");
+    EXPECT_EQ(rows[10].parameters, "origin-end+treelets:bits=4,treelet=1024,rays=50");
+    // On the chip nothing goes through memory.
+    const auto held = results::from_csv(
+        expect_done({"replay", gather, "--order", "naive", "--treelets", "1K", "--queue", "50"}).out,
+        "stdout");
+    EXPECT_EQ(held[1].reorder_bytes, 0u);
+    EXPECT_EQ(held[1].buffer_traffic_bytes, 0u);
+
+    const auto regions = results::from_csv<results::MachineRow>(
+        expect_done({"replay", gather, "--order", "naive", "--treelets", "1K", "--queue", "50", "--onchip",
+                     "1K", "--machine", "paper-128k"})
+            .out,
+        "stdout");
+    std::map<std::string, std::uint64_t> accesses;
+    for (const results::MachineRow& row : regions)
+        if (row.level == "L1") accesses[row.ordering + ' ' + row.region] += *row.accesses;
+    EXPECT_EQ(accesses.at("naive+treelets nodes"), accesses.at("naive nodes"));
+    EXPECT_EQ(accesses.at("naive+treelets triangles"), accesses.at("naive triangles"));
+    EXPECT_GT(accesses.at("naive+treelets reorder_buffer"), 0u);
+    EXPECT_GT(accesses.at("naive+treelets stack"), 0u);
+
+    expect_refused(bad_usage, {"replay", box(), "--order", "naive", "--treelets", "1K", "--queue", "50"},
+                   {"treelets: found walks through left-balanced-kd", "walk --rays"});
+    expect_refused(bad_usage, {"replay", gather, "--order", "naive", "--treelets", "0", "--queue", "50"},
+                   {"--treelets: 0 is 0, expected 1 to 1073741824"});
+    expect_refused(bad_usage, {"replay", gather, "--order", "naive", "--treelets", "1K", "--queue", "0"},
+                   {"--queue", "'0'"});
 }
 
 }  // namespace
