@@ -53,10 +53,20 @@ RayCaster::RayCaster(const Scene& scene) : scene_(scene), bvh_(scene.vertices, s
     }
 }
 
-std::optional<Hit> RayCaster::closest(Vec3 origin, Vec3 direction) const {
+std::optional<spatial::Ray> RayCaster::ray(Vec3 origin, Vec3 direction) const {
     if (!can_be_cast(origin, direction)) return std::nullopt;
-    const spatial::Meeting met =
-        spatial::closest(bvh_, {.origin = origin, .direction = direction, .nearest = largest_offset_ / 8});
+    return spatial::Ray{.origin = origin, .direction = direction, .nearest = largest_offset_ / 8};
+}
+
+std::optional<spatial::Ray> RayCaster::shadow_ray(Vec3 origin, Vec3 direction, float extent) const {
+    if (!can_be_cast(origin, direction) || !(extent > 0)) return std::nullopt;
+    return spatial::Ray{.origin = origin, .direction = direction, .farthest = extent};
+}
+
+std::optional<Hit> RayCaster::closest(Vec3 origin, Vec3 direction) const {
+    const std::optional<spatial::Ray> cast = ray(origin, direction);
+    if (!cast) return std::nullopt;
+    const spatial::Meeting met = spatial::closest(bvh_, *cast);
     if (!met.found()) return std::nullopt;
 
     Hit hit;
@@ -83,8 +93,8 @@ std::optional<Hit> RayCaster::closest(Vec3 origin, Vec3 direction) const {
 }
 
 bool RayCaster::occluded(Vec3 origin, Vec3 direction, float extent) const {
-    if (!can_be_cast(origin, direction) || !(extent > 0)) return false;
-    return spatial::occluded(bvh_, {.origin = origin, .direction = direction, .farthest = extent});
+    const std::optional<spatial::Ray> cast = shadow_ray(origin, direction, extent);
+    return cast && spatial::occluded(bvh_, *cast);
 }
 
 }  // namespace regather::capture

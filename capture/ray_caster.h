@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scenes/scene.h"
+#include "spatial/rays/ray.h"
 #include "spatial/rays/ray_bvh.h"
 
 namespace regather::capture {
@@ -40,6 +41,11 @@ public:
     /// moves a point is. Any number of threads may call.
     std::optional<Hit> closest(Vec3 origin, Vec3 direction) const;
     bool occluded(Vec3 origin, Vec3 direction, float extent) const;
+
+    /// What closest() and occluded() cast through the triangles; nothing when they cast nothing.
+    std::optional<spatial::Ray> ray(Vec3 origin, Vec3 direction) const;
+    std::optional<spatial::Ray> shadow_ray(Vec3 origin, Vec3 direction, float extent) const;
+    const spatial::RayBvh& bvh() const { return bvh_; }
 
     /// `position` moved off the surface to the side of `normal`, farther than the rounding of any hit, so
     /// that a ray from there does not meet the same surface (Waechter and Binder, "A Fast and Reliable Method

@@ -32,7 +32,7 @@ std::string run(const StructureJob& job, const ProgressListener& progress) {
         throw trace::UsageError(
             fmt::format("--output: found {}, expected another folder than the trace's", job.folder.string()));
     trace::TraceInfo info = from.info();
-    const std::optional<float> radius = replay::search_radius(info);
+    const std::optional<float> radius = replay::search_radius(from);
     if (!radius)
         throw trace::DataError(
             fmt::format("{}: parameters: found no radius, expected how far the queries were searched",

@@ -37,6 +37,19 @@ public:
         }
     }
 
+    /// The lower `count` bits, 0 to 64, the uppermost first; those above are 0.
+    void push(std::uint64_t bits, unsigned count) {
+        const unsigned room = 64 - used_;
+        if (count < room) {
+            word_ = word_ << count | bits;
+            used_ += count;
+            return;
+        }
+        used_ = count - room;
+        append((room < 64 ? word_ << room : 0) | bits >> used_, 8);
+        word_ = bits;  // what has gone already leaves at the top
+    }
+
     /// Ends a walk; returns its bytes.
     std::uint32_t finish() {
         const std::size_t rest = began_ && bytes_.size() == start_ && used_ == 0 ? 1 : (used_ + 7) / 8;

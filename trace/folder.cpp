@@ -21,21 +21,29 @@ namespace fs = std::filesystem;
 constexpr ColumnEntry table[] = {
     {"photon", "photon", "see docs/trace_format.md",
      "photons in heap order of the left-balanced kd-tree; split axis and surface normal are in the flags",
-     column_type<Photon>, true},
+     column_type<Photon>, false},
     {"tree_child", "tree_child", "element",
-     "lower and upper child of each inner node of a tree with leaves; elements are the inner nodes, then the "
-     "leaves",
+     "the children of each inner node of a tree with leaves, as many rows a node as it can have, 0: none; "
+     "elements are the inner nodes, then the leaves",
      column_type<std::uint32_t>, false},
     {"tree_leaf_begin", "tree_leaf_begin", "place",
-     "where the photons of each leaf begin, and the number of photons", column_type<std::uint32_t>, false},
+     "where the photons or triangles of each leaf begin, and their number", column_type<std::uint32_t>,
+     false},
     {"tree_photon", "photon", "row of photon", "which photon lies at each place of the leaves",
      column_type<std::uint32_t>, false},
+    {"tree_triangle", "tree_triangle", "triangle of the scene",
+     "which triangle lies at each place of the leaves", column_type<std::uint32_t>, false},
     {"query_position", "query", "scene units", "where the k nearest photons are asked for", column_type<Vec3>,
      true},
     {"query_pixel", "query", "y * image_width + x", "the pixel that the answer belongs to",
      column_type<std::uint32_t>, true},
     {"query_weight", "query", "1", "RGB factor of the answer in the pixel's sum", column_type<Vec3>, false},
     {"query_direction", "query", "unit vector", "travel direction of the gather ray that ended here",
+     column_type<Vec3>, false},
+    {"query_end", "query", "scene units",
+     "where a ray ends: at the hit, at its extent, or where it leaves the scene's box", column_type<Vec3>,
+     false},
+    {"query_guess", "query", "scene units", "where a ray ends among the scene's largest triangles alone",
      column_type<Vec3>, false},
     {"query_leaf_kd", "query", "leaf number, depth-first",
      "leaf of a kd-tree over the triangles that the hit lies in", column_type<std::uint32_t>, false},
@@ -243,7 +251,10 @@ TraceReader::TraceReader(fs::path folder) : folder_(std::move(folder)) {
             root[total].fail(fmt::format("{}", rows), fmt::format("{} as the rows of {}", found, name));
     };
     expect_rows("query_position", "queries", info_.queries);
-    expect_rows("photon", "photons", info_.photons);
+    if (digests_.contains("photon"))
+        expect_rows("photon", "photons", info_.photons);
+    else if (info_.photons != 0)
+        root["photons"].fail(fmt::format("{}", info_.photons), "0, as there is no column photon");
     for (const auto& [name, digest] : digests_) {
         const fs::path path = column_path(folder_, name);
         MappedColumn column(path, column_entry(name).type());

@@ -36,6 +36,9 @@ const ColumnEntry& column_entry(std::string_view name);  ///< UsageError for an 
 /// The photon maps of a capture.
 inline constexpr std::array<std::string_view, 2> map_names{"global", "caustic"};
 
+/// The rays of a capture: columns ray_KIND_*.
+inline constexpr std::array<std::string_view, 4> ray_kinds{"eye", "specular", "shadow", "gather"};
+
 struct LeftOut {
     std::string what, why;
 };
@@ -48,7 +51,9 @@ struct TraceInfo {
     std::optional<std::uint32_t> frame;               ///< Of the scene's camera path.
     std::uint32_t k = 0;
     std::uint64_t seed = 0;
-    std::string structure{"left-balanced-kd"};  ///< What was walked: a spec of spatial/photons/structures.h.
+    std::string structure{"left-balanced-kd"};  ///< What was walked: a spec of
+                                                ///< spatial/photons/structures.h or
+                                                ///< spatial/rays/ray_structures.h.
     std::uint32_t structure_version = 1;
     std::uint64_t queries = 0, photons = 0;
     std::uint64_t found_photons = 0;   ///< Sum over the queries of the photons that each found.

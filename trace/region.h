@@ -7,10 +7,10 @@
 
 namespace regather::trace {
 
-enum class Region : std::uint8_t { photons, reorder_buffer, other, nodes, photon_power };
+enum class Region : std::uint8_t { photons, reorder_buffer, other, nodes, photon_power, triangles, stack };
 
-inline constexpr std::array<std::string_view, 5> region_names{"photons", "reorder_buffer", "other", "nodes",
-                                                              "photon_power"};
+inline constexpr std::array<std::string_view, 7> region_names{
+    "photons", "reorder_buffer", "other", "nodes", "photon_power", "triangles", "stack"};
 inline constexpr std::size_t region_count = region_names.size();
 
 }  // namespace regather::trace

@@ -12,6 +12,7 @@
 #include "spatial/photons/found_walk.h"
 #include "spatial/photons/left_balanced.h"
 #include "spatial/photons/photon_kd.h"
+#include "spatial/rays/ray_structures.h"
 #include "trace/error.h"
 #include "trace/range.h"
 #include "trace/text.h"
@@ -227,6 +228,7 @@ std::unique_ptr<PhotonSearch> build(const StructureSpec& spec, std::span<const P
 }
 
 std::shared_ptr<const Structure> open_structure(trace::TraceReader& trace) {
+    if (is_ray_structure(trace.info().structure)) return open_ray_structure(trace);
     const std::string file = (trace.folder() / "trace.json").string();
     const StructureEntry* entry = nullptr;
     bool found = false;

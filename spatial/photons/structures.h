@@ -55,8 +55,9 @@ StructureSpec parse_structure(std::string_view spec);
 std::unique_ptr<PhotonSearch> build(const StructureSpec& spec, std::span<const Photon> heap, std::uint32_t k,
                                     float radius);
 
-/// What the walks of a trace were taken in; its reader outlives it. Throws trace::DataError for a structure
-/// or a version that this binary does not know, and for columns that are no tree over the trace's photons.
+/// What the walks of a trace were taken in, of rays, too (spatial/rays/ray_structures.h); its reader outlives
+/// it. Throws trace::DataError for a structure or a version that this binary does not know, and for columns
+/// that are no tree over the trace's photons.
 std::shared_ptr<const Structure> open_structure(trace::TraceReader& trace);
 
 /// Of the photons, by record of the structure; empty for a trace without photons. Throws trace::DataError for

@@ -65,6 +65,34 @@ void complete(BuiltNode& node, std::span<const trace::Bounds3> boxes, std::uint3
     }
 }
 
+/// Half of the surface.
+double half_surface(const trace::Bounds3& box) {
+    const double x = double(box.max.x) - double(box.min.x), y = double(box.max.y) - double(box.min.y),
+                 z = double(box.max.z) - double(box.min.z);
+    return x * y + y * z + z * x;
+}
+
+void widen(BuiltNode& node, std::uint32_t width) {
+    const auto children = node.children.begin();
+    while (node.child_count < width && node.child_count > 0) {
+        auto taken = children + node.child_count;
+        double largest = -1;
+        for (auto child = children; child != children + node.child_count; ++child)
+            if (const double surface = half_surface((*child)->bounds);
+                (*child)->child_count > 0 && surface > largest) {
+                largest = surface;
+                taken = child;
+            }
+        if (taken == children + node.child_count) break;  // only leaves
+        const BuiltNode& inner = **taken;
+        std::move_backward(taken + 1, children + node.child_count, children + node.child_count + 1);
+        *taken = inner.children[0];
+        *(taken + 1) = inner.children[1];
+        ++node.child_count;
+    }
+    for (std::uint32_t i = 0; i < node.child_count; ++i) widen(*node.children[i], width);
+}
+
 }  // namespace
 
 struct BuiltTree::Embree {
@@ -119,5 +147,9 @@ BuiltTree::BuiltTree(std::span<const trace::Bounds3> boxes, const BuildConfig& c
 }
 
 BuiltTree::~BuiltTree() = default;
+
+void BuiltTree::collapse(std::uint32_t width) {
+    if (root_) widen(*root_, width);
+}
 
 }  // namespace regather::spatial

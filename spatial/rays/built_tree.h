@@ -44,6 +44,11 @@ public:
 
     BuiltNode* root() const { return root_; }  ///< Null without boxes.
 
+    /// Makes wider nodes of a binary tree: from the root down, a node takes in the children of the inner
+    /// child of the largest surface, the first of equal ones, until it has `width` children, 2 to 8 (Wald,
+    /// Benthin, Boulos: "Getting Rid of Packets", 2008). Leaves stay as they are.
+    void collapse(std::uint32_t width);
+
 private:
     struct Embree;
     std::unique_ptr<Embree> embree_;

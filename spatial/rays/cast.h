@@ -20,16 +20,11 @@
 #include <limits>
 
 #include "spatial/rays/built_tree.h"
+#include "spatial/rays/ray.h"
 #include "spatial/rays/ray_bvh.h"
 #include "trace/vec.h"
 
 namespace regather::spatial {
-
-/// Finite; the direction is not zero. Hits count at distances over `nearest` (0 or more) up to `farthest`.
-struct Ray {
-    trace::Vec3 origin, direction;
-    float nearest = 0, farthest = std::numeric_limits<float>::infinity();
-};
 
 /// Where a ray meets a triangle.
 struct Meeting {
@@ -43,9 +38,11 @@ struct Meeting {
     bool found() const { return triangle != nothing; }
 };
 
-/// What a cast tells, in the order of its steps.
+/// What a cast tells, in the order of its steps. Of the children that are entered one is gone to, the others
+/// wait, the last one put aside first.
 struct UnheardCast {
     void node(std::uint32_t) {}   ///< The boxes of a node's children are tested.
+    void entered(unsigned) {}     ///< So many of them are entered by the ray. A listener may do without.
     void block(std::uint32_t) {}  ///< The triangles of a block are tested.
 };
 
@@ -168,6 +165,12 @@ private:
 // Each node on the way down leaves at most width - 1 children behind.
 constexpr std::size_t stack_size = (RayBvh::width - 1) * BuiltTree::max_depth + 1;
 
+template <class Listener>
+void tell_entered(Listener& listener, unsigned children) {
+    if constexpr (requires { listener.entered(children); })
+        listener.entered(static_cast<unsigned>(std::popcount(children)));
+}
+
 }  // namespace cast_detail
 
 /// The nearest triangle that the ray meets; of several at the same distance the one with the smallest number.
@@ -201,6 +204,7 @@ Meeting closest(const RayBvh& bvh, const Ray& ray, Listener&& listener = {}) {
             const RayBvh::Node& node = nodes[at];
             listener.node(at);
             unsigned entered = prepared.enter(node, ray.nearest, best.distance, entry);
+            cast_detail::tell_entered(listener, entered);
             // The farthest first, so that the nearest lies on top.
             for (const std::size_t floor = height; entered != 0; entered &= entered - 1) {
                 const auto i = unsigned(std::countr_zero(entered));
@@ -242,6 +246,7 @@ bool occluded(const RayBvh& bvh, const Ray& ray, Listener&& listener = {}) {
             alignas(32) float entry[RayBvh::width];
             listener.node(at);
             unsigned entered = prepared.enter(nodes[at], ray.nearest, ray.farthest, entry);
+            cast_detail::tell_entered(listener, entered);
             for (; entered != 0; entered &= entered - 1)
                 stack[height++] = nodes[at].children[std::countr_zero(entered)];
         }

@@ -1,9 +1,12 @@
 #include "spatial/rays/ray_bvh.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "spatial/rays/built_tree.h"
+#include "trace/range.h"
 
 namespace regather::spatial {
 
@@ -13,6 +16,13 @@ using trace::Vec3;
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// The float that is x, or the next one on the way to `direction`.
+float rounded_towards(double x, float direction) {
+    const auto rounded = static_cast<float>(x);
+    const bool beyond = direction > 0 ? double{rounded} < x : double{rounded} > x;
+    return beyond ? std::nextafter(rounded, direction) : rounded;
+}
 
 /// Makes nodes and blocks of a built tree.
 class Packer {
@@ -63,9 +73,47 @@ private:
     std::vector<RayBvh::Block>& blocks_;
 };
 
+/// Moves the planes of a node's children on one axis outwards onto its grid. Children that are not there stay
+/// empty. Every grid plane is a double exactly; the float next to it may lie a step further out.
+void quantise(float* lower, float* upper) {
+    double from = infinity, to = -infinity;
+    for (std::uint32_t i = 0; i < RayBvh::width; ++i) {
+        if (lower[i] > upper[i]) continue;
+        from = std::min(from, double{lower[i]});
+        to = std::max(to, double{upper[i]});
+    }
+    if (!(to > from)) return;  // flat: the planes are the corner itself
+    int exponent = 0;
+    std::frexp((to - from) / 255, &exponent);  // below 2^exponent
+    const double step = std::ldexp(1.0, exponent);
+    for (std::uint32_t i = 0; i < RayBvh::width; ++i) {
+        if (lower[i] > upper[i]) continue;
+        const double below = from + std::floor((lower[i] - from) / step) * step,
+                     above = from + std::ceil((upper[i] - from) / step) * step;
+        lower[i] = rounded_towards(below, -infinity);
+        upper[i] = rounded_towards(above, infinity);
+    }
+}
+
 }  // namespace
 
 RayBvh::RayBvh(std::span<const Vec3> vertices, std::span<const TriangleIndices> triangles) {
+    build(vertices, triangles, nullptr);
+}
+
+RayBvh::RayBvh(std::span<const Vec3> vertices, std::span<const TriangleIndices> triangles,
+               const Shape& shape) {
+    trace::require_range("RayBvh", "node_width", shape.node_width, 2, width);
+    trace::require_range("RayBvh", "leaf_triangles", shape.leaf_triangles, 1, width);
+    build(vertices, triangles, &shape);
+    if (!shape.quantised) return;
+    // A node's own box is the union of its children's, as they were before.
+    for (Node& node : nodes_)
+        for (auto& planes : node.planes) quantise(planes[0], planes[1]);
+}
+
+void RayBvh::build(std::span<const Vec3> vertices, std::span<const TriangleIndices> triangles,
+                   const Shape* shape) {
     const std::vector<Bounds3> all = triangle_bounds(vertices, triangles);
     std::vector<Bounds3> boxes;
     std::vector<std::uint32_t> number_of;
@@ -76,7 +124,10 @@ RayBvh::RayBvh(std::span<const Vec3> vertices, std::span<const TriangleIndices> 
         number_of.push_back(t);
         bounds_.include(all[t]);
     }
-    const BuiltTree tree(boxes, {.most_children = width, .leaf_size = width, .block_size = width});
+    BuiltTree tree(boxes, shape
+                              ? BuildConfig{.leaf_size = shape->leaf_triangles}
+                              : BuildConfig{.most_children = width, .leaf_size = width, .block_size = width});
+    if (shape) tree.collapse(shape->node_width);
     if (tree.root()) Packer(vertices, triangles, number_of, nodes_, blocks_).pack(*tree.root());
 }
 

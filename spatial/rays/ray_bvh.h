@@ -30,10 +30,24 @@ public:
         std::uint32_t count;
     };
 
+    /// Of a tree that is not the renderer's.
+    struct Shape {
+        std::uint32_t node_width = width;  ///< Children of a node at most: 2 to 8.
+        std::uint32_t leaf_triangles = 4;  ///< At most: 1 to 8.
+        bool quantised = false;  ///< Planes of children as 8 bits on a grid over the node's box, outwards.
+    };
+
     RayBvh() = default;
     /// Triangles without any area (across() is 0) are left out. Throws trace::DataError as
     /// triangle_bounds() does, and std::runtime_error with Embree's message when Embree fails.
     RayBvh(std::span<const trace::Vec3> vertices, std::span<const TriangleIndices> triangles);
+    /// Nodes of another width, collapsed from one binary tree (BuiltTree::collapse()): all widths have the
+    /// same leaves. Quantised planes lie at the node's lower corner + n x 2^e, n from 0 to 255, 2^e the least
+    /// power of two above 1/255 of the node's extent on the axis (Ylitie, Karras, Laine: "Efficient
+    /// Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", 2017, section 3): boxes are larger,
+    /// and rays visit more. Throws as above, and trace::UsageError for a shape out of range.
+    RayBvh(std::span<const trace::Vec3> vertices, std::span<const TriangleIndices> triangles,
+           const Shape& shape);
 
     const std::vector<Node>& nodes() const { return nodes_; }     ///< The root first; pre-order.
     const std::vector<Block>& blocks() const { return blocks_; }  ///< In the order of a walk in pre-order.
@@ -42,6 +56,9 @@ public:
     std::uint32_t root() const { return nodes_.empty() ? leaf_bit : 0; }  ///< A child; only when not empty().
 
 private:
+    void build(std::span<const trace::Vec3> vertices, std::span<const TriangleIndices> triangles,
+               const Shape* shape);
+
     std::vector<Node> nodes_;
     std::vector<Block> blocks_;
     trace::Bounds3 bounds_;
