@@ -23,6 +23,8 @@ reorder::Workload workload(trace::TraceReader& trace, const reorder::Reads& read
     if (wanted(reads.leaf_kd, "query_leaf_kd")) work.leaf_kd = trace.column<std::uint32_t>("query_leaf_kd");
     if (wanted(reads.leaf_bvh, "query_leaf_bvh"))
         work.leaf_bvh = trace.column<std::uint32_t>("query_leaf_bvh");
+    if (wanted(reads.end, "query_end")) work.end = trace.column<trace::Vec3>("query_end");
+    if (wanted(reads.guess, "query_guess")) work.guess = trace.column<trace::Vec3>("query_guess");
     work.bounds = trace::bounds_of(work.position);
     work.image_width = info.image_width;
     work.image_height = info.image_height;
@@ -39,6 +41,8 @@ reorder::Workload middle_of(const reorder::Workload& work, std::uint64_t count) 
     middle.pixel = part(work.pixel);
     middle.leaf_kd = part(work.leaf_kd);
     middle.leaf_bvh = part(work.leaf_bvh);
+    middle.end = part(work.end);
+    middle.guess = part(work.guess);
     middle.bounds = trace::bounds_of(middle.position);
     return middle;
 }

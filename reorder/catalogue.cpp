@@ -10,6 +10,7 @@
 #include "reorder/leaf_sorted.h"
 #include "reorder/naive.h"
 #include "reorder/random.h"
+#include "reorder/ray_sorted.h"
 #include "reorder/shared_library.h"
 #include "reorder/tiled.h"
 #include "trace/error.h"
@@ -41,6 +42,8 @@ constexpr Parameter swizzle_parameters[] = {optional_tile, {"bits", "4", "top bi
 constexpr Parameter hashed_parameters[] = {buckets, capacity, cells};
 constexpr Parameter direction_hashed_parameters[] = {tile, bins, passes, state, buckets, capacity, cells};
 constexpr Parameter leaf_parameters[] = {optional_tile};
+constexpr Parameter origin_direction_parameters[] = {{"bits", "8", "of a coordinate of the key, 1 to 12"}};
+constexpr Parameter origin_end_parameters[] = {{"bits", "8", "of a coordinate of the key, 1 to 10"}};
 
 using Made = std::unique_ptr<Ordering>;
 
@@ -102,6 +105,11 @@ Made make_leaf(Parameters& given) {
         LeafSortedConfig{.column = column, .tile = given.given_count("tile")});
 }
 
+template <RayKey key>
+Made make_ray(Parameters& given) {
+    return std::make_unique<RaySorted>(RaySortedConfig{.key = key, .bits = given.count("bits")});
+}
+
 constexpr Entry entries[] = {
     {"naive", "capture order: pixels in row order", {}, make_naive},
     {"random", "random order, the worst case", random_parameters, make_random},
@@ -118,6 +126,12 @@ constexpr Entry entries[] = {
      make_leaf<LeafColumn::kd>},
     {"bvh-leaf", "sorted by the leaf of the BVH that the gather ray ended in", leaf_parameters,
      make_leaf<LeafColumn::bvh>},
+    {"origin-direction", "rays sorted by origin and direction", origin_direction_parameters,
+     make_ray<RayKey::origin_direction>},
+    {"origin-end", "rays sorted by origin and end point", origin_end_parameters,
+     make_ray<RayKey::origin_end>},
+    {"origin-guess", "rays sorted by origin and the end that a coarse model gives", origin_end_parameters,
+     make_ray<RayKey::origin_guess>},
 };
 
 ParsedOrdering load_library(std::string_view path, std::string_view parameters) {

@@ -49,6 +49,8 @@ void check(const Workload& work, Reads reads) {
     check_column(work, "direction", work.direction.size(), reads.direction);
     check_column(work, "leaf_kd", work.leaf_kd.size(), reads.leaf_kd);
     check_column(work, "leaf_bvh", work.leaf_bvh.size(), reads.leaf_bvh);
+    check_column(work, "end", work.end.size(), reads.end);
+    check_column(work, "guess", work.guess.size(), reads.guess);
     const std::uint64_t pixels = std::uint64_t{work.image_width} * work.image_height;
     if (pixels == 0 || pixels > std::uint64_t{1} << 32)
         throw trace::DataError(fmt::format("image of {} x {} pixels, expected 1 to 2^32 pixels",

@@ -30,12 +30,15 @@ inline constexpr std::uint64_t pixel_state_bytes = 48;
 /// Which columns an ordering reads besides position and pixel.
 struct Reads {
     bool direction = false, leaf_kd = false, leaf_bvh = false;
-    bool captured = false;  ///< Whichever were captured: what is missing is empty.
+    bool end = false, guess = false;  ///< Of a ray.
+    bool captured = false;            ///< Whichever were captured: what is missing is empty.
 
     Reads& operator|=(const Reads& other) {
         direction |= other.direction;
         leaf_kd |= other.leaf_kd;
         leaf_bvh |= other.leaf_bvh;
+        end |= other.end;
+        guess |= other.guess;
         captured |= other.captured;
         return *this;
     }
@@ -49,6 +52,8 @@ struct Workload {
     std::span<const std::uint32_t> pixel;             ///< y * image_width + x
     std::span<const std::uint32_t> leaf_kd;           ///< Leaf label: kd-tree over the triangles.
     std::span<const std::uint32_t> leaf_bvh;          ///< Leaf label: BVH over the triangles.
+    std::span<const Vec3> end = {};                   ///< Where a ray ends [scene units].
+    std::span<const Vec3> guess = {};                 ///< Where it would end in a coarse model.
     Bounds3 bounds;                                   ///< Of all finite positions.
     std::uint32_t image_width = 1, image_height = 1;  ///< [pixels]
     std::filesystem::path folder = {};                ///< Of the columns' files, for messages.
@@ -64,7 +69,7 @@ struct Cost {
     std::uint64_t buffered_bytes = 0;  ///< Peak bytes of queries or pixel state held back.
     std::uint64_t reorder_bytes =
         0;                          ///< Bytes written to and read from memory outside the chip because of it.
-    std::uint64_t recast_rays = 0;  ///< Eye rays cast again.
+    std::uint64_t recast_rays = 0;  ///< Eye rays cast again; rays cast through a coarse model.
     std::uint64_t stalls = 0;       ///< Times the generation of queries had to wait for a full bucket.
 };
 

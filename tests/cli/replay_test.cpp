@@ -15,9 +15,11 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr, testing::StartsWith;
 
+/// But for those that read where a ray ends.
 std::vector<std::string> every_ordering() {
     std::vector<std::string> words{"--order"};
-    for (const reorder::Entry& entry : reorder::catalogue()) words.emplace_back(entry.name);
+    for (const reorder::Entry& entry : reorder::catalogue())
+        if (entry.name != "origin-end" && entry.name != "origin-guess") words.emplace_back(entry.name);
     return words;
 }
 
@@ -34,12 +36,13 @@ TEST(Replay, EveryOrderingGetsARowForEachCache) {
             "accesses,raw_bytes,oracle_bytes,compulsory_bytes,misses,traffic_bytes,reorder_bytes,key_ops,"
             "moved_records,buffered_bytes,recast_rays,order_seconds,replay_seconds"));
     const std::vector<results::Row> rows = results::read_csv(csv);
-    ASSERT_EQ(rows.size(), 2 * reorder::catalogue().size());
+    const std::vector<std::string> orderings = every_ordering();
+    ASSERT_EQ(rows.size(), 2 * (orderings.size() - 1));
     const trace::TraceReader reader(trace);
     const std::uint64_t nodes = reader.info().visited_nodes, photons = reader.info().found_photons;
     for (std::size_t r = 0; r < rows.size(); ++r) {
         const results::Row& row = rows[r];
-        EXPECT_EQ(row.ordering, reorder::catalogue()[r / 2].name);
+        EXPECT_EQ(row.ordering, orderings[1 + r / 2]);
         EXPECT_EQ(row.scene, "box");
         EXPECT_EQ(row.cache_bytes, r % 2 == 0 ? 4096u : 2048u);
         EXPECT_EQ(row.ways, r % 2 == 0 ? 8u : 0u);

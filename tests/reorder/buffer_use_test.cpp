@@ -59,6 +59,8 @@ TEST(BufferUse, EverySpilledOrderingOfTheCatalogueHasBytes) {
     queries.direction.assign(1024, {0, 0, 1});
     queries.leaf_kd.assign(1024, 1);
     queries.leaf_bvh.assign(1024, 1);
+    queries.end.assign(1024, {});
+    queries.guess.assign(1024, {});
     for (const Entry& entry : catalogue()) {
         const bool generative = entry.name == "naive" || entry.name == "random" || entry.name == "tiled";
         EXPECT_EQ(written_bytes(use_of(entry.name, queries, 100)) == 0, generative) << entry.name;

@@ -24,7 +24,8 @@ TEST(Catalogue, HoldsTheOrderingsOfThePaper) {
     for (const Entry& entry : catalogue()) names.push_back(entry.name);
     EXPECT_THAT(names, testing::UnorderedElementsAre("naive", "random", "tiled", "direction-binned",
                                                      "hilbert", "morton", "swizzle", "hashed",
-                                                     "direction-binned+hashed", "kd-leaf", "bvh-leaf"));
+                                                     "direction-binned+hashed", "kd-leaf", "bvh-leaf",
+                                                     "origin-direction", "origin-end", "origin-guess"));
 }
 
 TEST(Catalogue, SpecTellsEveryParameterAndIsASpecAgain) {

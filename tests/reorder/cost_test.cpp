@@ -19,6 +19,8 @@ Queries image() {
     queries.direction.assign(n, {0, 0, 1});
     queries.leaf_kd.assign(n, 256);  // 9 bits
     queries.leaf_bvh.assign(n, 0);
+    queries.end.assign(n, {});
+    queries.guess.assign(n, {});
     return queries;
 }
 
@@ -86,6 +88,17 @@ TEST(Cost, OperationsOfAKey) {
     EXPECT_EQ(cost_of("hilbert:bits=8").key_ops, n * (15 + 49 + 9 * 4));  // two single levels, two triples
     EXPECT_EQ(cost_of("kd-leaf").key_ops, 0u);
     EXPECT_EQ(cost_of("kd-leaf").keys, n);
+}
+
+// A bit of a coordinate: two shifts, an and, an or.
+TEST(Cost, OperationsOfARaysKey) {
+    EXPECT_EQ(cost_of("origin-end:bits=3").key_ops, n * (15 + 15 + 4 * 18));
+    EXPECT_EQ(cost_of("origin-direction:bits=3").key_ops, n * (15 + 23 + 4 * 15));
+    EXPECT_EQ(cost_of("origin-end:bits=3").sort_passes, 3u);        // 18 bits
+    EXPECT_EQ(cost_of("origin-direction:bits=3").sort_passes, 2u);  // 15
+    EXPECT_EQ(cost_of("origin-end").buffered_bytes, n * record);
+    EXPECT_EQ(cost_of("origin-end").recast_rays, 0u);
+    EXPECT_EQ(cost_of("origin-guess").recast_rays, n);
 }
 
 TEST(Cost, ABufferBeyondTheChipIsDistributedThroughMemory) {

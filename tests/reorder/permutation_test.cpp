@@ -62,6 +62,8 @@ TEST_P(EveryOrdering, DoesNotDependOnThreads) {
                       Vec3{-1, -1, -1}));
         queries.leaf_kd.push_back(static_cast<std::uint32_t>(scrambled(i) % 5000));
         queries.leaf_bvh.push_back(static_cast<std::uint32_t>(scrambled(i) % 90));
+        queries.end.push_back({scrambled_unit(7 * i), scrambled_unit(7 * i + 1), scrambled_unit(7 * i + 2)});
+        queries.guess.push_back(queries.end.back());
     }
     const std::unique_ptr<Ordering> ordering = make_ordering(GetParam());
     const auto run = [&](std::size_t threads) {
@@ -82,6 +84,8 @@ TEST_P(EveryOrdering, WorksOnNoneOneAndCoincidentQueries) {
         queries.direction.assign(count, {0, 0, 1});
         queries.leaf_kd.assign(count, 9);
         queries.leaf_bvh.assign(count, 9);
+        queries.end.assign(count, {2, 5, 4});
+        queries.guess.assign(count, {2, 6, 4});
         const auto permutation = order(*ordering, queries.workload()).permutation;
         ASSERT_EQ(permutation.size(), count);
         if (GetParam().starts_with("random")) continue;
@@ -118,6 +122,11 @@ TEST(Order, NamesAMissingColumnOnlyWhenTheOrderingReadsIt) {
     EXPECT_EQ(refusal("direction-binned+hashed", bare), direction);
     EXPECT_EQ(refusal("kd-leaf", bare),
               "usage: the ordering reads column leaf_kd, which this capture does not have");
+    EXPECT_EQ(refusal("origin-direction", bare), direction);
+    EXPECT_EQ(refusal("origin-end", bare),
+              "usage: the ordering reads column end, which this capture does not have");
+    EXPECT_EQ(refusal("origin-guess", bare),
+              "usage: the ordering reads column guess, which this capture does not have");
     EXPECT_EQ(refusal("bvh-leaf", bare),
               "usage: the ordering reads column leaf_bvh, which this capture does not have");
 }

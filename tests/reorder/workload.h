@@ -10,7 +10,7 @@
 namespace regather::reorder {
 
 struct Queries {
-    std::vector<Vec3> position, direction;
+    std::vector<Vec3> position, direction, end, guess;
     std::vector<std::uint32_t> pixel, leaf_kd, leaf_bvh;
     std::uint32_t width = 1, height = 1;
 
@@ -20,6 +20,8 @@ struct Queries {
                 .pixel = pixel,
                 .leaf_kd = leaf_kd,
                 .leaf_bvh = leaf_bvh,
+                .end = end,
+                .guess = guess,
                 .bounds = trace::bounds_of(position),
                 .image_width = width,
                 .image_height = height};
@@ -77,6 +79,8 @@ inline Queries any_queries() {
                                                            (std::uint64_t{queries.width} * queries.height)));
         queries.leaf_kd.push_back(static_cast<std::uint32_t>(scrambled(point)));
         queries.leaf_bvh.push_back(static_cast<std::uint32_t>(scrambled(point) % 7));
+        queries.end.push_back(dice == 6 ? Vec3{odd[i % 3], 0, 0} : position * scrambled_unit(seed + 11 * i));
+        queries.guess.push_back(queries.end.back() * 2);
     }
     return queries;
 }

@@ -49,6 +49,8 @@ struct Traced {
                 .pixel = pixels,
                 .leaf_kd = leaves,
                 .leaf_bvh = leaves,
+                .end = points,
+                .guess = points,
                 .bounds = trace::bounds_of(points),
                 .image_width = width,
                 .image_height = width};
