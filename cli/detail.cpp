@@ -24,7 +24,7 @@ namespace {
 struct Options {
     std::filesystem::path trace, csv, timeline;
     std::vector<std::string> orders, caches{"128K:128:8"};
-    std::string onchip = "1M", layout = "heap-20";
+    std::string onchip = "1M", layout;
     std::uint64_t slices = 200;
     bool no_buffers = false, force = false;
 };
@@ -45,7 +45,7 @@ void run(const Options& options, const Console& console) {
     const std::uint64_t onchip = trace::parse_size(options.onchip);
     trace::TraceReader trace(options.trace);
     experiment::Measurement measurement(trace, reads, onchip);
-    measurement.lay_out(options.layout);
+    if (!options.layout.empty()) measurement.lay_out(options.layout);
     const std::string& scene = trace.info().scene;
     experiment::Detail detail;
     {
@@ -83,7 +83,8 @@ void add_detail(Command& command) {
     command.list("--cache", options->caches, "caches as SIZE:LINE:WAYS; WAYS may be full");
     command.option(
         "--layout", options->layout,
-        "where each node lies in memory, as ORDER-RECORD:parameter=value,...; see regather layouts");
+        "where each node lies in memory, as ORDER-RECORD:parameter=value,...; see regather layouts. Without: "
+        "heap-20, for rays depth-first-48");
     command.option("--onchip", options->onchip, "bytes that the chip can buffer");
     command.option("--slices", options->slices, {1, std::uint64_t{1} << 32},
                    "slices of the run in the timeline");

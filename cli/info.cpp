@@ -10,6 +10,7 @@
 #include "replay/verification.h"
 #include "scenes/loader.h"
 #include "scenes/needs.h"
+#include "spatial/rays/ray_structures.h"
 #include "trace/error.h"
 #include "trace/folder.h"
 #include "trace/text.h"
@@ -30,17 +31,21 @@ void print_trace(const std::filesystem::path& folder, bool verify, const Console
         });
     }
     const trace::TraceInfo& info = trace.info();
+    const bool of_rays = spatial::is_ray_structure(info.structure);
     const double queries = static_cast<double>(std::max<std::uint64_t>(info.queries, 1));
     console.print(
         "trace      {}\nscene      {}{}\nmap        {}\nimage      {} x {} pixels\nseed       {}\nstructure  "
-        "{}, {} photons, k = {}\n",
+        "{}{}\n",
         trace::shown(folder.string(), trace::most_shown_path), trace::shown(info.scene),
         info.frame ? fmt::format(", frame {}", *info.frame) : "", info.map, info.image_width,
-        info.image_height, info.seed, info.structure, info.photons, info.k);
-    console.print("queries    {}: {:.1f} photons found, {:.1f} nodes visited, {:.1f} bytes of walk each\n",
-                  info.queries, static_cast<double>(info.found_photons) / queries,
-                  static_cast<double>(info.visited_nodes) / queries,
-                  static_cast<double>(trace.digests().at("walk").rows) / queries);
+        info.image_height, info.seed, info.structure,
+        of_rays ? ", rays" : fmt::format(", {} photons, k = {}", info.photons, info.k));
+    console.print(
+        "queries    {}: {}{:.1f} nodes visited, {:.1f} bytes of walk each\n", info.queries,
+        of_rays ? ""
+                : fmt::format("{:.1f} photons found, ", static_cast<double>(info.found_photons) / queries),
+        static_cast<double>(info.visited_nodes) / queries,
+        static_cast<double>(trace.digests().at("walk").rows) / queries);
     console.print("checksum   {}\nparameters {}\ncounts     {}\ncolumns\n", trace.checksum(),
                   trace::shown(info.parameters.dump(), most_shown_json),
                   trace::shown(info.counts.dump(), most_shown_json));
@@ -56,6 +61,7 @@ void print_trace(const std::filesystem::path& folder, bool verify, const Console
     if (!verify) return;
     console.print("verified   checksums, the order of the tree, pixels, directions, rays, walks{}\n",
                   verified.searched ? "; each query was searched again and walks the same way"
+                  : of_rays         ? "; not cast again: a trace of rays does not hold the triangles"
                                     : "; not searched again: trace.json does not say the radius");
     if (verified.queries_nowhere > 0)
         console.print("           {} queries are at no finite place and find nothing\n",

@@ -25,12 +25,18 @@ void run(const Nothing&, const Console& console) {
     for (const replay::PhotonRecord& record : replay::photon_records())
         records.add({std::string(record.name), fmt::format("{}", record.stride_bytes),
                      fmt::format("{}", record.used_bytes), std::string(record.summary)});
+    results::Table triangles({{"record", Align::left},
+                              {"bytes", Align::right},
+                              {"a triangle, in structures for rays", Align::left}});
+    for (const replay::TriangleRecord& record : replay::triangle_records())
+        triangles.add(
+            {std::string(record.name), fmt::format("{}", record.bytes), std::string(record.summary)});
     results::Table parameters({{"parameter", Align::left}, {"default", Align::left}, {"what", Align::left}});
     for (const trace::Parameter& parameter : replay::layout_parameters())
         parameters.add(
             {std::string(parameter.name), std::string(parameter.default_value), std::string(parameter.help)});
-    console.print("A layout is ORDER-RECORD:parameter=value,...\n\n{}\n{}\n{}", results::text_of(orders),
-                  results::text_of(records), results::text_of(parameters));
+    console.print("A layout is ORDER-RECORD:parameter=value,...\n\n{}\n{}\n{}\n{}", results::text_of(orders),
+                  results::text_of(records), results::text_of(triangles), results::text_of(parameters));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ namespace {
 
 struct Options {
     std::filesystem::path trace, csv;
-    std::vector<std::string> orders, caches{"128K:128:8"}, layouts{"heap-20"};
+    std::vector<std::string> orders, caches{"128K:128:8"}, layouts;
     std::string onchip = "1M", machines;
     bool classes = false, buffers = false, force = false;
     std::uint32_t one_of = 1;
@@ -78,7 +78,8 @@ void add_replay(Command& command) {
     command.list("--cache", options->caches,
                  "caches as SIZE:LINE:WAYS, each a value or a list; WAYS may be full");
     command.list("--layout", options->layouts,
-                 "where each node lies in memory, as ORDER-RECORD:parameter=value,...; see regather layouts");
+                 "where each node lies in memory, as ORDER-RECORD:parameter=value,...; see regather layouts. "
+                 "Without: heap-20, for rays depth-first-48");
     command.option(
         "--machine", options->machines,
         "in place of --cache: memory systems, by name (see regather machines) or file, with commas");

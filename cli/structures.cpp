@@ -1,4 +1,4 @@
-// regather structures -- what photons can be searched in.
+// regather structures -- what photons can be searched in, and rays cast through.
 #include "spatial/photons/structures.h"
 
 #include <memory>
@@ -6,6 +6,7 @@
 #include "cli/command.h"
 #include "cli/commands.h"
 #include "results/table.h"
+#include "spatial/rays/ray_structures.h"
 
 namespace regather::cli {
 namespace {
@@ -18,14 +19,16 @@ void run(const Nothing&, const Console& console) {
                         {"version", Align::right},
                         {"parameters", Align::left},
                         {"what", Align::left}});
-    for (const spatial::StructureEntry& entry : spatial::structures()) {
+    const auto add = [&all](const auto& entry) {
         std::string parameters;
         for (const trace::Parameter& parameter : entry.parameters)
-            parameters += fmt::format("{}{}={}", parameters.empty() ? "" : ",", parameter.name,
-                                      parameter.default_value);
+            parameters += fmt::format("{}{}{}{}", parameters.empty() ? "" : ",", parameter.name,
+                                      parameter.default_value.empty() ? "" : "=", parameter.default_value);
         all.add({std::string(entry.name), fmt::format("{}", entry.version), parameters,
                  std::string(entry.summary)});
-    }
+    };
+    for (const spatial::StructureEntry& entry : spatial::structures()) add(entry);
+    for (const spatial::RayStructureEntry& entry : spatial::ray_structures()) add(entry);
     console.print("{}", results::text_of(all));
 }
 
@@ -33,7 +36,9 @@ void run(const Nothing&, const Console& console) {
 
 void add_structures(Command& command) {
     command.footer(
-        "Example:\n  regather walk out/room/trace --structure median-kd:leaf=8 -o out/room-median");
+        "Examples:\n"
+        "  regather walk out/room/trace --structure median-kd:leaf=8 -o out/room-median\n"
+        "  regather walk out/room/trace --rays gather --structure bvh-4 -o out/room-gather-rays");
     command.action(std::make_shared<Nothing>(), run);
 }
 

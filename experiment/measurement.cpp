@@ -29,7 +29,7 @@ Orderings parse_orderings(std::span<const std::string> specs) {
 Measurement::Measurement(trace::TraceReader& trace, const reorder::Reads& reads, std::uint64_t onchip_bytes)
     : trace_(trace),
       walks_(trace),
-      layout_(replay::heap_20(walks_.structure())),
+      layout_(replay::usual_layout(walks_.structure())),
       work_(workload(trace, reads)),
       onchip_bytes_(onchip_bytes) {}
 
@@ -112,6 +112,8 @@ std::vector<results::Row> Measurement::rows(const reorder::ParsedOrdering& parse
         row.parameters = spec.text;
         row.structure = trace_.info().structure;
         if (trace_.info().map != "global") row.structure += " " + trace_.info().map;
+        if (const trace::Json* const kind = trace_.info().parameters.find("rays"); kind && kind->text())
+            row.structure += fmt::format(" {} rays", trace::shown(*kind->text()));
         row.layout = layout_.name();
         row.policy = "lru";
         row.cache_bytes = traffic.config.size_bytes;

@@ -44,10 +44,10 @@ public:
     const replay::WalkStore& walks() const { return walks_; }
     const replay::Layout& layout() const { return layout_; }
     /// Another layout by its spec (replay/layouts/catalogue.h, also for errors); what was prepared and found
-    /// for the one before is forgotten. heap-20 at first.
+    /// for the one before is forgotten. At first replay::usual_layout().
     void lay_out(std::string_view spec);
     void lay_out(replay::Layout layout);
-    /// Of the photons, as the structure counts its records.
+    /// Of the photons, as the structure counts its records; of rays none.
     std::vector<trace::Vec3> record_positions() const { return spatial::record_positions(trace_); }
     reorder::Ordered order(const reorder::Ordering& ordering) const;
     /// What the ordering's buffers do in memory; `ordered` is its order().

@@ -21,6 +21,7 @@ std::vector<results::Row> through_caches(Measurement& measurement, std::span<con
     std::vector<replay::Layout> laid_out;
     std::set<std::string, std::less<>> names;
     const std::vector<trace::Vec3> positions = measurement.record_positions();
+    if (layouts.empty()) laid_out.push_back(replay::usual_layout(measurement.walks().structure()));
     for (const std::string& spec : layouts) {
         laid_out.push_back(replay::make_layout(spec, measurement.walks().structure(), positions));
         if (!names.emplace(laid_out.back().name()).second)

@@ -10,6 +10,7 @@
 #include "replay/walk_store.h"
 #include "spatial/photons/photon_kd.h"
 #include "spatial/photons/structures.h"
+#include "spatial/rays/ray_structures.h"
 #include "trace/error.h"
 #include "trace/text.h"
 
@@ -52,11 +53,19 @@ MapParameters map_parameters(const trace::TraceInfo& info) {
 
 class Verification {
 public:
-    explicit Verification(trace::TraceReader& trace) : trace_(trace), info_(trace.info()) {}
+    explicit Verification(trace::TraceReader& trace)
+        : trace_(trace),
+          info_(trace.info()),
+          is_of_rays_(spatial::is_ray_structure(trace.info().structure)) {}
 
     Verified run(const QueriesDone& progress) {
         check_parameters();
         trace_.verify_all();
+        if (is_of_rays_) {
+            check_queries();
+            check_walks();
+            return verified_;
+        }
         const spatial::PhotonKd tree(trace_.column<trace::Photon>("photon"));
         if (const std::uint32_t node = spatial::first_disorder(tree); node != tree.size())
             refuse("photon", node, "a photon at no finite place or on the wrong side of a split",
@@ -115,7 +124,7 @@ private:
         agree(&info_.parameters, "parameters", "width", "image_width", info_.image_width);
         agree(&info_.parameters, "parameters", "height", "image_height", info_.image_height);
         agree(&info_.parameters, "parameters", "seed", "seed", info_.seed);
-        search_radius(trace_);
+        if (!is_of_rays_) search_radius(trace_);
         for (const char* const kind : {"eye", "specular", "shadow", "gather"}) {
             const std::string columns = fmt::format("ray_{}_", kind), rays = fmt::format("{}_rays", kind);
             const auto column = trace_.digests().lower_bound(columns);
@@ -144,6 +153,8 @@ private:
         check_directions("query_direction");
         check_labels("query_leaf_kd", "leaves_kd");
         check_labels("query_leaf_bvh", "leaves_bvh");
+        for (const char* const point : {"query_end", "query_guess"})
+            check_rows<Vec3>(point, "finite numbers", [](Vec3 v) { return trace::is_finite(v); });
         const std::span<const Vec3> positions = trace_.column<Vec3>("query_position");
         verified_.queries_nowhere = static_cast<std::uint64_t>(
             std::count_if(positions.begin(), positions.end(), [](Vec3 v) { return !trace::is_finite(v); }));
@@ -223,6 +234,7 @@ private:
 
     trace::TraceReader& trace_;
     const trace::TraceInfo& info_;
+    bool is_of_rays_;
     Verified verified_;
 };
 

@@ -21,9 +21,10 @@ std::optional<float> search_radius(const trace::TraceReader& trace);
 /// Reads every column and checks: k, size, seed and rays of trace.json against its parameters and columns;
 /// checksums; the order of the tree, finite photons; pixels inside the image;
 /// finite weights; unit directions; leaf labels below the number of leaves, where trace.json says it; rays;
-/// lengths that add up to the walks, walks that end where their bytes end, and their sum of nodes; then
-/// searches each query again and compares its walk byte by byte, and the sum of photons found. On all cores:
-/// as long as the capture's gathering. Throws trace::DataError that names file, row, found and expected.
+/// lengths that add up to the walks, walks that end where their bytes end, and their sum of nodes; then,
+/// but for a trace of rays, whose triangles it does not hold, searches each query again and compares its walk
+/// byte by byte, and the sum of photons found. On all cores: as long as the capture's gathering. Throws
+/// trace::DataError that names file, row, found and expected.
 Verified verify(trace::TraceReader& trace, const QueriesDone& progress = {});
 
 }  // namespace regather::replay

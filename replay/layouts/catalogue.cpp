@@ -9,6 +9,7 @@
 
 #include "replay/layouts/placement.h"
 #include "spatial/photons/left_balanced.h"
+#include "spatial/rays/ray_tree.h"
 #include "trace/error.h"
 #include "trace/range.h"
 #include "trace/text.h"
@@ -37,9 +38,15 @@ constexpr std::array<PhotonRecord, 5> records{{
     {"12+6", "position; power and direction apart, read of the photons found", 12, 12, 6, false},
 }};
 
+constexpr std::array<TriangleRecord, 2> of_triangles{{
+    {"36", "three corners", 36},
+    {"48", "three corners of 16 bytes, with number and material in the padding", 48},
+}};
+
 constexpr trace::Parameter parameters[] = {
     {"line", "128", "bytes of the line that a cluster fills, a power of two from 16 to 4096"},
-    {"node", "8", "bytes of an inner node that holds no photon, 4 to 1024"},
+    {"node", "",
+     "bytes of an inner node that holds no photon, 4 to 1024; none: 8, for rays what its boxes take"},
     {"top", "0", "levels from the root that are kept on chip, 0 to 40"},
 };
 
@@ -59,7 +66,7 @@ const auto& row(const Table& table, std::string_view what, std::string_view word
 struct Sizes {
     const spatial::Structure& structure;
     const PhotonRecord& record;
-    std::uint32_t node_bytes;
+    std::uint32_t node_bytes, triangle_bytes;
 
     trace::Region region(std::uint32_t element) const {
         const std::span<const spatial::ElementRange> ranges = structure.ranges();
@@ -68,9 +75,18 @@ struct Sizes {
         return ranges[r].region;
     }
     std::uint32_t taken(std::uint32_t element) const {
-        if (region(element) == trace::Region::nodes) return node_bytes;
-        if (region(element) == trace::Region::photon_power) return record.apart_bytes;
-        return record.stride_bytes * structure.records(element);
+        switch (region(element)) {
+            case trace::Region::nodes:
+                return node_bytes;
+            case trace::Region::photon_power:
+                return record.apart_bytes;
+            case trace::Region::triangles:
+                return triangle_bytes * structure.records(element);
+            case trace::Region::stack:
+                return stack_entry_bytes;
+            default:
+                return record.stride_bytes * structure.records(element);
+        }
     }
     /// The padding behind the last photon is not read.
     std::uint32_t used(std::uint32_t element) const {
@@ -130,6 +146,9 @@ std::span<const LayoutOrder> layout_orders() {
 std::span<const PhotonRecord> photon_records() {
     return records;
 }
+std::span<const TriangleRecord> triangle_records() {
+    return of_triangles;
+}
 std::span<const trace::Parameter> layout_parameters() {
     return parameters;
 }
@@ -143,16 +162,20 @@ Layout make_layout(std::string_view spec, const spatial::Structure& structure,
         throw trace::UsageError(
             fmt::format("layout: found {}, expected ORDER-RECORD such as heap-20", trace::in_quotes(spec)));
     const LayoutOrder& order = row(orders, "order", name.substr(0, dash));
-    const PhotonRecord& record = row(records, "record", name.substr(dash + 1));
+    const auto* const of_rays = dynamic_cast<const spatial::RayTree*>(&structure);
+    const PhotonRecord& record = of_rays ? records[0] : row(records, "record", name.substr(dash + 1));
+    const std::uint32_t triangle_bytes =
+        of_rays ? row(of_triangles, "record of a triangle", name.substr(dash + 1)).bytes : 0;
     const trace::Parameters given(name, parameters, spec.substr(std::min(colon + 1, spec.size())));
-    const std::uint32_t line = given.count("line"), node = given.count("node"), top = given.count("top");
+    const std::uint32_t line = given.count("line"), top = given.count("top"),
+                        node = given.given_count("node").value_or(of_rays ? of_rays->node_bytes() : 8);
     trace::require_range(name, "line", line, 16, 4096);
-    trace::require_range(name, "node", node, 4, 1024);
+    trace::require_range(name, "node", node, of_rays ? of_rays->node_bytes() : 4, 1024);
     trace::require_range(name, "top", top, 0, 40);
     if (!std::has_single_bit(line))
         throw trace::UsageError(fmt::format("{}: line: found {}, expected a power of two", name, line));
 
-    const Sizes sizes{structure, record, node};
+    const Sizes sizes{structure, record, node, triangle_bytes};
     const bool clusters = order.name == "clusters";
     const bool nodes = structure.range_of(trace::Region::nodes).count > 0;
     if (record.apart_bytes > 0 && structure.end() > 0 &&
@@ -188,6 +211,11 @@ Layout make_layout(std::string_view spec, const spatial::Structure& structure,
         : clusters ? clustered_order(structure, line, [&](std::uint32_t e) { return sizes.taken(e); })
                    : van_emde_boas_order(structure);
     return {std::move(text), structure, extents_of(placement, sizes, line, top)};
+}
+
+Layout usual_layout(const spatial::Structure& structure) {
+    const bool of_rays = dynamic_cast<const spatial::RayTree*>(&structure) != nullptr;
+    return make_layout(of_rays ? "depth-first-48" : "heap-20", structure);
 }
 
 }  // namespace regather::replay

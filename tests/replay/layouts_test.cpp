@@ -10,6 +10,7 @@
 #include "spatial/photons/bucket_kd.h"
 #include "spatial/photons/found_walk.h"
 #include "spatial/photons/left_balanced.h"
+#include "spatial/rays/ray_tree.h"
 #include "tests/spatial/photons.h"
 #include "trace/error.h"
 
@@ -150,6 +151,50 @@ TEST(Layouts, WhatIsApartFollowsItsPhotons) {
     const spatial::WithFound heap(std::make_shared<LeftBalanced>(5), "with");
     EXPECT_EQ(make_layout("depth-first-14+6", heap).extent(6 + 2 - 1), (Extent{4096 + 6, 6}));
     EXPECT_EQ(make_layout("depth-first-14+6", heap).extent(6 + 3 - 1), (Extent{4096 + 24, 6}));
+}
+
+// Nodes 0 {1, 2}, 1 {3, 4}, 2 {5, 6}; leaves 3 to 6 with 2, 1, 1 and 3 triangles; one place of the stack.
+spatial::RayTree seven_for_rays(bool quantised = false) {
+    return {
+        "seven",
+        {.width = 2, .children = {1, 2, 3, 4, 5, 6}, .leaf_begin = {0, 2, 3, 4, 7}, .quantised = quantised},
+        {.on_chip = 1, .any_hit = false}};
+}
+
+TEST(Layouts, RaysReadNodesTrianglesAndTheStack) {
+    const spatial::RayTree tree = seven_for_rays();
+    const Layout usual = usual_layout(tree);
+    EXPECT_EQ(usual.name(), "depth-first-48:node=64");
+    EXPECT_EQ(usual_layout(LeftBalanced(3)).name(), "heap-20");
+    EXPECT_EQ(usual.extent(2), (Extent{128, 64}));
+    EXPECT_EQ(usual.extent(3), (Extent{4096, 96}));
+    EXPECT_EQ(usual.extent(6), (Extent{4096 + 4 * 48, 144}));
+    EXPECT_EQ(usual.extent(7), (Extent{8192, 8}));
+    EXPECT_EQ(usual.region(3), trace::Region::triangles);
+    EXPECT_EQ(usual.region(7), trace::Region::stack);
+    EXPECT_EQ(make_layout("heap-36:node=128", tree).extent(4), (Extent{4096 + 72, 36}));
+    EXPECT_EQ(make_layout("heap-36", seven_for_rays(true)).extent(2), (Extent{64, 32}));
+    // Nodes and leaves of the upper levels are on chip, the stack is not.
+    const Layout top = make_layout("depth-first-48:top=2", tree);
+    EXPECT_EQ(top.bytes(std::vector<std::uint32_t>{0, 1, 2, 3, 7}), 96u + 8u);
+    for (const LayoutOrder& order : layout_orders()) {
+        if (order.name == "hilbert" || order.name == "morton") continue;  // of photons
+        const Layout layout = make_layout(std::string(order.name) + "-36", tree);
+        std::vector<Extent> extents;
+        for (std::uint32_t e = 0; e < tree.end(); ++e) extents.push_back(layout.extent(e));
+        std::sort(extents.begin(), extents.end(),
+                  [](const Extent& a, const Extent& b) { return a.address < b.address; });
+        for (std::size_t i = 1; i < extents.size(); ++i)
+            EXPECT_LE(extents[i - 1].address + extents[i - 1].bytes, extents[i].address) << order.name;
+    }
+    for (const auto& [spec, part] : {std::pair("heap-20", "unknown record of a triangle \"20\""),
+                                     std::pair("heap-48:node=60", "node is 60, expected 64 to 1024")})
+        try {
+            make_layout(spec, tree);
+            ADD_FAILURE() << spec << " was taken";
+        } catch (const trace::UsageError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(part));
+        }
 }
 
 TEST(Layouts, TheTopLevelsReadNothing) {
