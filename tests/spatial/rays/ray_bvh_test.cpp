@@ -65,6 +65,9 @@ TEST(RayBvh, EightTrianglesInARowCollapseAsDrawn) {
     EXPECT_EQ(nodes(2), 7u);
     EXPECT_EQ(nodes(4), 5u);
     EXPECT_EQ(nodes(8), 1u);
+    // The quarters are larger than their triangles: they are taken in first, so the root holds no leaf.
+    const RayBvh four(soup.vertices, soup.triangles, {.node_width = 4, .leaf_triangles = 1});
+    for (const std::uint32_t child : four.nodes()[0].children) EXPECT_FALSE(child & RayBvh::leaf_bit);
 }
 
 TEST(RayBvh, EveryShapeIsHitAlike) {
