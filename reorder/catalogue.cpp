@@ -42,8 +42,10 @@ constexpr Parameter swizzle_parameters[] = {optional_tile, {"bits", "4", "top bi
 constexpr Parameter hashed_parameters[] = {buckets, capacity, cells};
 constexpr Parameter direction_hashed_parameters[] = {tile, bins, passes, state, buckets, capacity, cells};
 constexpr Parameter leaf_parameters[] = {optional_tile};
-constexpr Parameter origin_direction_parameters[] = {{"bits", "8", "of a coordinate of the key, 1 to 12"}};
-constexpr Parameter origin_end_parameters[] = {{"bits", "8", "of a coordinate of the key, 1 to 10"}};
+constexpr Parameter origin_direction_parameters[] = {optional_tile,
+                                                     {"bits", "8", "of a coordinate of the key, 1 to 12"}};
+constexpr Parameter origin_end_parameters[] = {optional_tile,
+                                               {"bits", "8", "of a coordinate of the key, 1 to 10"}};
 
 using Made = std::unique_ptr<Ordering>;
 
@@ -107,7 +109,8 @@ Made make_leaf(Parameters& given) {
 
 template <RayKey key>
 Made make_ray(Parameters& given) {
-    return std::make_unique<RaySorted>(RaySortedConfig{.key = key, .bits = given.count("bits")});
+    return std::make_unique<RaySorted>(
+        RaySortedConfig{.key = key, .tile = given.given_count("tile"), .bits = given.count("bits")});
 }
 
 constexpr Entry entries[] = {

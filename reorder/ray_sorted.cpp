@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "reorder/cell.h"
@@ -43,6 +44,7 @@ std::uint64_t interleaved(std::span<const std::uint32_t> coordinates, std::uint3
 
 RaySorted::RaySorted(const RaySortedConfig& config) : config_(config) {
     const auto check = [&config](std::string_view name, std::uint32_t most) {
+        require_tile(name, config.tile);
         trace::require_range(name, "bits", config.bits, 1, most);
     };
     switch (config.key) {
@@ -72,18 +74,23 @@ Cost RaySorted::assign_keys(const Workload& work, std::uint64_t onchip_bytes,
     const std::span<const Vec3> end = config_.key == RayKey::origin_guess ? work.guess : work.end;
     Bounds3 bounds = work.bounds;
     if (ends) bounds.include(trace::bounds_of(end));
-    const CellGrid grid(bounds, 1u << config_.bits);
+    const std::uint32_t coordinates = ends ? 6 : 5;
+    const Tiling tiling(work, config_.tile);
+    const auto tile_bits = static_cast<std::uint32_t>(std::bit_width(tiling.tiles() - 1));
+    const std::uint32_t bits = std::min(config_.bits, (63 - tile_bits) / coordinates);
+    const CellGrid grid(bounds, 1u << bits);
     Bounds3 unit;
     unit.include(Vec3{0, 0, 0});
     unit.include(Vec3{1, 1, 1});
-    const CellGrid square(unit, 1u << config_.bits);
-    const std::uint32_t coordinates = ends ? 6 : 5;
-    const std::uint64_t beyond = std::uint64_t{1} << coordinates * config_.bits;
+    const CellGrid square(unit, 1u << bits);
+    const std::uint64_t beyond = std::uint64_t{1} << coordinates * bits;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, keys.size(), 4096), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            const std::uint64_t tile = std::uint64_t{tiling.tile_of(work.pixel[i])} << coordinates * bits
+                                                                                    << 1;
             const Vec3 second = ends ? end[i] : work.direction[i];
             if (!is_finite(work.position[i]) || !is_finite(second) || (!ends && second == Vec3{})) {
-                keys[i] = beyond;
+                keys[i] = tile | beyond;
                 continue;
             }
             std::array<std::uint32_t, most_coordinates> c{};
@@ -97,21 +104,21 @@ Cost RaySorted::assign_keys(const Workload& work, std::uint64_t onchip_bytes,
                 c[3] = square.along(u, 0);
                 c[4] = square.along(v, 1);
             }
-            keys[i] = interleaved(std::span(c).first(coordinates), config_.bits);
+            keys[i] = tile | interleaved(std::span(c).first(coordinates), bits);
         }
     });
     // A shift, an and, a shift and an or for each bit.
-    const std::uint64_t ops = CellGrid::ops + (ends ? CellGrid::ops : octahedron_ops) +
-                              std::uint64_t{4} * coordinates * config_.bits;
-    Cost cost = deferred_cost(work, Tiling(work, {}),
-                              {.ops_per_key = ops, .key_bits = coordinates * config_.bits}, onchip_bytes);
+    const std::uint64_t ops =
+        CellGrid::ops + (ends ? CellGrid::ops : octahedron_ops) + std::uint64_t{4} * coordinates * bits;
+    Cost cost =
+        deferred_cost(work, tiling, {.ops_per_key = ops, .key_bits = coordinates * bits}, onchip_bytes);
     if (config_.key == RayKey::origin_guess) cost.recast_rays = cost.keys;
     return cost;
 }
 
 BufferUse RaySorted::buffer_use(const Workload& work, std::uint64_t onchip_bytes,
                                 std::span<const std::uint32_t> permutation) const {
-    return deferred_buffer_use(work, Tiling(work, {}), onchip_bytes, permutation);
+    return deferred_buffer_use(work, Tiling(work, config_.tile), onchip_bytes, permutation);
 }
 
 }  // namespace regather::reorder

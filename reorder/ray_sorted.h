@@ -2,6 +2,8 @@
 // and of origin and end point, as Meister, Boksansky, Guthe and Bittner compare them ("On Ray Reordering
 // Techniques for Faster GPU Ray Tracing", I3D 2020, section 3).
 #pragma once
+#include <optional>
+
 #include "reorder/ordering.h"
 
 namespace regather::reorder {
@@ -16,11 +18,13 @@ enum class RayKey : std::uint8_t {
 
 struct RaySortedConfig {
     RayKey key = RayKey::origin_direction;
-    std::uint32_t bits = 8;  ///< Of each coordinate: 1 to 12, with points to 10.
+    std::optional<std::uint32_t> tile;  ///< Edge [pixels]; none: the whole image at once.
+    std::uint32_t bits = 8;             ///< Of each coordinate: 1 to 12, with points to 10.
 };
 
-/// Rays with an origin, a direction or an end that is not finite come last. All rays are collected, then
-/// sorted.
+/// Rays with an origin, a direction or an end that is not finite come last (of their tile). The rays of the
+/// image, or of a tile, are collected, then sorted. Tile number and key share 64 bits: with many tiles fewer
+/// bits of a coordinate are used.
 class RaySorted final : public Ordering {
 public:
     explicit RaySorted(const RaySortedConfig& config);  ///< trace::UsageError names the field at fault.

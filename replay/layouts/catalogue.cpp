@@ -53,6 +53,7 @@ constexpr trace::Parameter parameters[] = {
 template <class Table>
 const auto& row(const Table& table, std::string_view what, std::string_view word) {
     std::vector<std::string_view> names;
+    names.reserve(table.size());
     for (const auto& entry : table) names.push_back(entry.name);
     const auto found = std::find(names.begin(), names.end(), word);
     if (found == names.end())

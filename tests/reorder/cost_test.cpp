@@ -99,6 +99,7 @@ TEST(Cost, OperationsOfARaysKey) {
     EXPECT_EQ(cost_of("origin-end").buffered_bytes, n * record);
     EXPECT_EQ(cost_of("origin-end").recast_rays, 0u);
     EXPECT_EQ(cost_of("origin-guess").recast_rays, n);
+    EXPECT_EQ(cost_of("origin-end:tile=8").buffered_bytes, 8 * 8 * 3 * record);
 }
 
 TEST(Cost, ABufferBeyondTheChipIsDistributedThroughMemory) {

@@ -65,6 +65,26 @@ TEST(RaySorted, AGuessStandsForTheEnd) {
     EXPECT_EQ(order_by("origin-guess", rays), (Order{2, 0, 1}));
 }
 
+TEST(RaySorted, TilesAreDoneOneByOne) {
+    Queries rays = one_per_pixel(4, 1);  // tiles of two pixels
+    rays.position.assign(4, {0, 0, 0});
+    rays.end = {{9, 0, 0}, {5, 0, 0}, {7, 0, 0}, {1, 0, 0}};
+    rays.end[0].y = nan;
+    EXPECT_EQ(order_by("origin-end:tile=2", rays), (Order{1, 0, 3, 2}));
+    EXPECT_EQ(order_by("origin-end", rays), (Order{3, 1, 2, 0}));
+    // 2^32 tiles leave 31 bits: five of each of six coordinates. The cell that is one wide at 10 bits is 32.
+    rays = one_per_pixel(2, 1);
+    rays.width = rays.height = 1 << 16;
+    rays.pixel = {0, 0};
+    rays.position = {{0, 0, 0}, {1024, 0, 0}};
+    rays.end = {{33, 0, 0}, {0, 0, 0}};
+    EXPECT_EQ(order_by("origin-end:tile=1,bits=10", rays), (Order{0, 1}));
+    rays.position = {{0, 0, 0}, {0, 0, 0}};
+    rays.end = {{1024, 0, 0}, {992, 0, 0}};
+    EXPECT_EQ(order_by("origin-end:tile=1,bits=10", rays), (Order{0, 1}));  // both in the last cell
+    EXPECT_EQ(order_by("origin-end:bits=10", rays), (Order{1, 0}));
+}
+
 TEST(RaySorted, RaysThatGoNowhereComeLast) {
     Queries rays = one_per_pixel(4, 1);
     rays.position = {{nan, 0, 0}, {9, 9, 9}, {8, 9, 9}, {1, 1, 1}};
