@@ -246,6 +246,8 @@ TEST_F(Visits, ColumnsOfElementsAreCheckedByRow) {
 }
 
 TEST_F(Visits, WhatContradictsBroughtWalksIsRefused) {
+    expect_refused(bad_usage, words({"--candidates"}),
+                   {"--candidates: found visits that are brought, expected photons that are searched for"});
     for (const char* option : {"--k", "--radius", "--structure"})
         expect_refused(bad_usage, words({option, std::string(option) == "--structure" ? "grid" : "5"}),
                        {"visit_element.npy", option});
