@@ -17,18 +17,20 @@ void run(const Nothing&, const Console& console) {
     using results::Align;
     results::Table all({{"structure", Align::left},
                         {"version", Align::right},
+                        {"exact", Align::left},
                         {"parameters", Align::left},
                         {"what", Align::left}});
-    const auto add = [&all](const auto& entry) {
+    const auto add = [&all](const auto& entry, std::string_view exact) {
         std::string parameters;
         for (const trace::Parameter& parameter : entry.parameters)
             parameters += fmt::format("{}{}{}{}", parameters.empty() ? "" : ",", parameter.name,
                                       parameter.default_value.empty() ? "" : "=", parameter.default_value);
-        all.add({std::string(entry.name), fmt::format("{}", entry.version), parameters,
+        all.add({std::string(entry.name), fmt::format("{}", entry.version), std::string(exact), parameters,
                  std::string(entry.summary)});
     };
-    for (const spatial::StructureEntry& entry : spatial::structures()) add(entry);
-    for (const spatial::RayStructureEntry& entry : spatial::ray_structures()) add(entry);
+    for (const spatial::StructureEntry& entry : spatial::structures())
+        add(entry, !entry.build ? "?" : entry.is_exact ? "yes" : "no");
+    for (const spatial::RayStructureEntry& entry : spatial::ray_structures()) add(entry, "yes");
     console.print("{}", results::text_of(all));
 }
 

@@ -60,7 +60,7 @@ std::string run(const StructureJob& job, const ProgressListener& progress) {
         write_walks(spec, *search, positions, *radius, job.candidates, writer, info, progress);
     writer.finish(info);
     const double queries = std::max<double>(1, static_cast<double>(info.queries));
-    return fmt::format("{}: {} photons, {} queries, {:.1f} elements visited a query\n{}trace: {}\n",
+    return fmt::format("{}: {} photons, {} queries, {:.1f} elements visited a query{}trace: {}\n",
                        info.structure, info.photons, info.queries,
                        static_cast<double>(info.visited_nodes) / queries, figures, job.folder.string());
 }

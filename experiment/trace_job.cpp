@@ -57,7 +57,7 @@ std::string run(const TraceJob& job, const ProgressListener& progress) {
     info.parameters["radius"] = std::isfinite(radius) ? trace::Json(job.radius) : trace::Json();
     info.parameters["k"] = job.k;
     writer.finish(info);
-    return fmt::format("{} photons, {} queries, {} nodes visited\n{}trace: {}\n", info.photons, info.queries,
+    return fmt::format("{} photons, {} queries, {} nodes visited{}trace: {}\n", info.photons, info.queries,
                        info.visited_nodes, figures, job.folder.string());
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 
 namespace regather::experiment {
 
@@ -16,6 +17,7 @@ std::string write_walks(const spatial::StructureSpec& spec, const spatial::Photo
     info.structure_version = spec.entry->version;
     info.found_photons = info.visited_nodes = 0;
     std::uint64_t entered = 0;
+    std::optional<spatial::Recall> recall;
     constexpr std::uint64_t batch = 1 << 20;
     for (std::uint64_t first = 0; first < positions.size() || first == 0; first += batch) {
         const auto points =
@@ -32,12 +34,17 @@ std::string write_walks(const spatial::StructureSpec& spec, const spatial::Photo
         }
         info.found_photons += walks.found_photons;
         info.visited_nodes += walks.visited_nodes;
+        if (const auto part = search.recall(points, info.k, radius))
+            recall = recall.value_or(spatial::Recall()) += *part;
         if (progress) progress("recording walks", "queries", first + points.size(), positions.size());
     }
-    const double queries = std::max<double>(1, static_cast<double>(positions.size()));
-    return candidates ? fmt::format("candidates: {:.1f} photons entered the list a query\n",
-                                    static_cast<double>(entered) / queries)
-                      : "";
+    spatial::set_recall(info.counts, recall);
+    std::string figures = spatial::text_of(recall) + "\n";
+    if (candidates)
+        figures += fmt::format(
+            "candidates: {:.1f} photons entered the list a query\n",
+            static_cast<double>(entered) / std::max<double>(1, static_cast<double>(positions.size())));
+    return figures;
 }
 
 }  // namespace regather::experiment

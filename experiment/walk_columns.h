@@ -12,7 +12,8 @@ namespace regather::experiment {
 
 /// Searches for the info.k nearest photons of each position within `radius` [scene units], writes the columns
 /// and what trace.json says of them. With `candidates` also those of spatial/photons/candidate_bits.h.
-/// Returns figures beside those of trace.json, for people; may be empty.
+/// Returns the end of a line for people, with the recall of a structure that is not exact, and figures of
+/// candidates, a line each.
 std::string write_walks(const spatial::StructureSpec& spec, const spatial::PhotonSearch& search,
                         std::span<const trace::Vec3> positions, float radius, bool candidates,
                         trace::TraceWriter& writer, trace::TraceInfo& info, const ProgressListener& progress);

@@ -246,6 +246,13 @@ private:
         stored.lengths = stored.lengths.subspan(expected.lengths.size());
     }
 
+    void check_recall(std::string_view key, std::uint64_t expected) const {
+        const trace::Json* const count = info_.counts.find(key);
+        if (!count || *count != trace::Json(expected))
+            refuse_field(trace_, fmt::format("counts.{}", key), count ? shown(*count) : "nothing",
+                         fmt::format("{}, as the searches and exact ones find", expected));
+    }
+
     void check_searches(const QueriesDone& progress) {
         const std::uint64_t most = info_.queries * std::min<std::uint64_t>(info_.k, info_.photons);
         if (info_.found_photons > most)
@@ -273,6 +280,7 @@ private:
                           trace_.column<std::uint8_t>("candidate")};
         const std::string search_for = fmt::format("the search for {} photons within {}", info_.k, *radius);
         std::uint64_t found = 0;
+        std::optional<spatial::Recall> recall;
         constexpr std::uint64_t batch = 1 << 20;
         for (std::uint64_t first = 0; first < positions.size(); first += batch) {
             const std::span<const Vec3> points =
@@ -284,10 +292,16 @@ private:
                 take_same(candidates, {again.candidate_bytes, again.candidates}, first, "candidate",
                           "other bits", "those of " + search_for);
             found += again.found_photons;
+            if (const auto part = search->recall(points, info_.k, *radius))
+                recall = recall.value_or(spatial::Recall()) += *part;
             if (progress) progress(first + points.size());
         }
         if (found != info_.found_photons)
             refuse("found_photons", info_.found_photons, fmt::format("{}, as the searches find", found));
+        if (recall) {
+            check_recall(spatial::nearest_count, recall->nearest);
+            check_recall(spatial::nearest_found_count, recall->found);
+        }
         verified_.searched = true;
     }
 

@@ -24,8 +24,9 @@ std::optional<float> search_radius(const trace::TraceReader& trace);
 /// lengths that add up to the walks, walks that end where their bytes end, and their sum of nodes; a bit of
 /// `candidate` for each photon looked at, as many set as photons found or more; then,
 /// but for a trace of rays, whose triangles it does not hold, searches each query again and compares its walk
-/// and bits byte by byte, and the sum of photons found. On all cores: as long as the capture's gathering.
-/// Throws trace::DataError that names file, row, found and expected.
+/// and bits byte by byte, the sum of photons found, and the recall of a structure that is not exact. On all
+/// cores: as long as the capture's gathering. Throws trace::DataError that names file, row, found and
+/// expected.
 Verified verify(trace::TraceReader& trace, const QueriesDone& progress = {});
 
 }  // namespace regather::replay

@@ -1,5 +1,7 @@
 #include "spatial/photons/listed_search.h"
 
+#include <utility>
+
 #include "spatial/listed_columns.h"
 #include "spatial/photons/found_walk.h"
 
@@ -7,13 +9,10 @@ namespace regather::spatial {
 namespace {
 
 template <class Index>
-class ListedSearch final : public PhotonSearch {
+class ListedSearch : public PhotonSearch {
 public:
-    ListedSearch(std::span<const Photon> photons, std::uint32_t bucket_photons, bool tells_found,
-                 const std::string& text)
-        : index_(photons, bucket_photons, text),
-          structure_(index_.share_structure()),
-          tells_found_(tells_found) {
+    ListedSearch(Index index, bool tells_found, const std::string& text)
+        : index_(std::move(index)), structure_(index_.share_structure()), tells_found_(tells_found) {
         if (tells_found) structure_ = std::make_shared<WithFound>(structure_, text);
     }
     std::shared_ptr<const Structure> structure() const override { return structure_; }
@@ -28,10 +27,26 @@ public:
         writer.column("tree_photon").append(photon_at());
     }
 
+protected:
+    const Index& index() const { return index_; }
+
 private:
     Index index_;
     std::shared_ptr<const Structure> structure_;
     bool tells_found_;
+};
+
+class BlockSearch final : public ListedSearch<BlockHashing> {
+public:
+    BlockSearch(std::span<const Photon> heap, const BlockHashing::Config& config, bool tells_found,
+                const std::string& text)
+        : ListedSearch(BlockHashing(heap, config, text), tells_found, text), heap_(heap) {}
+    std::optional<Recall> recall(std::span<const Vec3> points, std::uint32_t k, float radius) const override {
+        return recall_of(index(), heap_, points, k, radius);
+    }
+
+private:
+    std::span<const Photon> heap_;
 };
 
 }  // namespace
@@ -40,7 +55,17 @@ template <class Index>
 std::unique_ptr<PhotonSearch> build_listed(std::span<const Photon> heap, const trace::Parameters& given,
                                            std::string text, std::uint32_t, float) {
     const char* const bucket = given.knows("cell") ? "cell" : "leaf";
-    return std::make_unique<ListedSearch<Index>>(heap, given.count(bucket), given.count("found") == 1, text);
+    return std::make_unique<ListedSearch<Index>>(Index(heap, given.count(bucket), text),
+                                                 given.count("found") == 1, text);
+}
+
+template <>
+std::unique_ptr<PhotonSearch> build_listed<BlockHashing>(std::span<const Photon> heap,
+                                                         const trace::Parameters& given, std::string text,
+                                                         std::uint32_t, float) {
+    const BlockHashing::Config config{
+        .tables = given.count("tables"), .block = given.count("block"), .blocks = given.count("blocks")};
+    return std::make_unique<BlockSearch>(heap, config, given.count("found") == 1, text);
 }
 
 template <class Index>
@@ -63,5 +88,6 @@ REGATHER_LISTED(HashedGrid)
 REGATHER_LISTED(PhotonOctree)
 REGATHER_LISTED(PhotonBvh)
 #undef REGATHER_LISTED
+template std::shared_ptr<const Structure> open_listed<BlockHashing>(trace::TraceReader&);
 
 }  // namespace regather::spatial

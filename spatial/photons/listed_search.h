@@ -10,7 +10,7 @@
 
 namespace regather::spatial {
 
-/// Index: PhotonGrid, HashedGrid, PhotonOctree or PhotonBvh. For rows of structures().
+/// Index: PhotonGrid, HashedGrid, PhotonOctree, PhotonBvh or BlockHashing. For rows of structures().
 template <class Index>
 std::unique_ptr<PhotonSearch> build_listed(std::span<const Photon> heap, const trace::Parameters& given,
                                            std::string text, std::uint32_t k, float radius);

@@ -89,5 +89,6 @@ template Recording record_walks(const PhotonGrid&, std::span<const Vec3>, std::u
 template Recording record_walks(const HashedGrid&, std::span<const Vec3>, std::uint32_t, float, Telling);
 template Recording record_walks(const PhotonOctree&, std::span<const Vec3>, std::uint32_t, float, Telling);
 template Recording record_walks(const PhotonBvh&, std::span<const Vec3>, std::uint32_t, float, Telling);
+template Recording record_walks(const BlockHashing&, std::span<const Vec3>, std::uint32_t, float, Telling);
 
 }  // namespace regather::spatial

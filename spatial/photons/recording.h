@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "spatial/photons/block_hashing.h"
 #include "spatial/photons/bucket_kd.h"
 #include "spatial/photons/hashed_grid.h"
 #include "spatial/photons/photon_bvh.h"
@@ -33,7 +34,7 @@ struct Telling {
 
 /// The walks of the `k` nearest photons within `radius` [scene units] of each point; a point that is not
 /// finite has an empty walk. The same on any number of threads.
-/// Tree: PhotonKd, BucketKd, PhotonGrid, HashedGrid, PhotonOctree or PhotonBvh.
+/// Tree: PhotonKd, BucketKd, PhotonGrid, HashedGrid, PhotonOctree, PhotonBvh or BlockHashing.
 template <class Tree>
 Recording record_walks(const Tree& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
                        Telling telling = {});

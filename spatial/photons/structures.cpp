@@ -36,6 +36,12 @@ constexpr trace::Parameter cell_parameters[] = {
     {"cell", "8", "photons of a cell on average, 1 to 64; see docs/structures.md"},
     {"found", "0", found_help}};
 
+constexpr trace::Parameter hashing_parameters[] = {
+    {"tables", "16", "hash tables, 1 to 64"},
+    {"block", "16", "photons of a block, 1 to 64"},
+    {"blocks", "0", "most blocks that a search looks at, 1 to 1024; 0: all that its buckets name"},
+    {"found", "0", found_help}};
+
 bool tells_found(const trace::Parameters& given) {
     return given.knows("found") && given.count("found") == 1;
 }
@@ -203,6 +209,9 @@ constexpr StructureEntry table[] = {
      build_listed<PhotonOctree>, open_listed<PhotonOctree>},
     {"bvh", "bounding volume hierarchy, halved along the longest side; a node holds both children's boxes", 1,
      leaf_parameters, build_listed<PhotonBvh>, open_listed<PhotonBvh>},
+    {"block-hashing",
+     "blocks of photons along a Hilbert curve, named by hash tables (Ma & McCool 2002); finds not all", 1,
+     hashing_parameters, build_listed<BlockHashing>, open_listed<BlockHashing>, false},
     {brought_structure,
      "whatever another program has walked: elements and visits are columns (docs/bringing_walks.md)",
      1,
@@ -232,9 +241,13 @@ StructureSpec parse_structure(std::string_view spec) {
     std::string text(entry.name);
     for (const trace::Parameter& parameter : entry.parameters) {
         const std::uint32_t value = parameters.count(parameter.name);
-        const bool is_switch = parameter.name == "found" || parameter.name == "bounds";
-        trace::require_range(entry.name, parameter.name, value, is_switch ? 0 : 1, is_switch ? 1 : 64);
-        if (is_switch && value == 0) continue;  // as if there were no such parameter
+        const bool is_switch = parameter.name == "found" || parameter.name == "bounds",
+                   is_limit = parameter.name == "blocks";
+        trace::require_range(entry.name, parameter.name, value, is_switch || is_limit ? 0 : 1,
+                             is_switch  ? 1
+                             : is_limit ? BlockHashing::most_tables * BlockHashing::most_named
+                                        : 64);
+        if ((is_switch || is_limit) && value == 0) continue;  // as if there were no such parameter
         text += fmt::format("{}{}={}", text.size() == entry.name.size() ? ":" : ",", parameter.name, value);
     }
     return {&entry, std::move(parameters), std::move(text)};

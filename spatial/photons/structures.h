@@ -4,10 +4,12 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "spatial/photons/recall.h"
 #include "spatial/photons/recording.h"
 #include "spatial/structure.h"
 #include "trace/folder.h"
@@ -23,6 +25,10 @@ public:
     /// As record_walks(); the walks tell which photons were found where the structure's do.
     virtual Recording record(std::span<const Vec3> points, std::uint32_t k, float radius,
                              bool tells_candidates) const = 0;
+    /// Of the same searches, where they are not exact.
+    virtual std::optional<Recall> recall(std::span<const Vec3>, std::uint32_t, float) const {
+        return std::nullopt;
+    }
     /// By place in the leaves, which photon lies there; empty where photons lie in their own order.
     virtual std::span<const std::uint32_t> photon_at() const = 0;
     /// Writes the columns that open_structure() reads beside `photon`.
@@ -37,6 +43,7 @@ struct StructureEntry {
     std::unique_ptr<PhotonSearch> (*build)(std::span<const Photon> heap, const trace::Parameters& given,
                                            std::string text, std::uint32_t k, float radius);
     std::shared_ptr<const Structure> (*open)(trace::TraceReader& trace);
+    bool is_exact = true;  ///< Else PhotonSearch::recall() says what its searches find.
 };
 
 /// Its elements and walks are somebody else's.

@@ -156,7 +156,7 @@ TEST(WalkAgain, InEveryStructureTheSamePhotonsAreFound) {
     const std::string from = (captured_box() / "trace").string();
     const trace::TraceReader original(from);
     for (const spatial::StructureEntry& entry : spatial::structures()) {
-        if (!entry.build) continue;
+        if (!entry.build || !entry.is_exact) continue;
         const bool buckets = entry.parameters.size() > 1;
         const std::string name(entry.name),
             spec = buckets ? fmt::format("{}:{}=5", name, entry.parameters[0].name) : name,
@@ -189,6 +189,44 @@ TEST(WalkAgain, InEveryStructureTheSamePhotonsAreFound) {
         }
         EXPECT_THAT(rows[0].layout, testing::StartsWith(buckets ? "heap-20:node=" : "heap-20"));
     }
+}
+
+TEST(WalkAgain, ASearchThatIsNotExactSaysWhatItFinds) {
+    const Scratch scratch;
+    const std::string from = (captured_box() / "trace").string(), few = (scratch / "few").string(),
+                      many = (scratch / "many").string(), back = (scratch / "back").string();
+    EXPECT_THAT(expect_done({"structures"}).out, testing::ContainsRegex("block-hashing +1 +no"));
+    const std::string told =
+        expect_done({"walk", from, "--structure", "block-hashing:tables=2,blocks=3", "-o", few}).out;
+    expect_done({"walk", few, "--structure", "block-hashing:block=64,found=1", "-o", many});
+    expect_done({"walk", few, "--structure", "octree", "-o", back});
+    const trace::TraceReader original(from), a(few), b(many), exact(back);
+    for (const std::string& to : {few, many, back}) expect_done({"info", to, "--verify"});
+    const auto count = [](const trace::TraceReader& trace, const char* key) {
+        return *trace.info().counts.find(key)->whole();
+    };
+    EXPECT_EQ(count(a, "nearest_photons"), original.info().found_photons);
+    EXPECT_EQ(count(b, "nearest_photons"), original.info().found_photons);
+    EXPECT_LT(count(a, "nearest_found"), count(b, "nearest_found"));
+    EXPECT_LE(count(b, "nearest_found"), original.info().found_photons);
+    EXPECT_THAT(told, HasSubstr(fmt::format(", recall {:.4f} of {} nearest photons",
+                                            static_cast<double>(count(a, "nearest_found")) /
+                                                static_cast<double>(count(a, "nearest_photons")),
+                                            original.info().found_photons)));
+    EXPECT_EQ(exact.info().counts, original.info().counts);
+    const std::vector<results::Row> rows =
+        results::from_csv(expect_done({"replay", many, "--order", "naive", "hilbert", "--layout", "heap-20",
+                                       "van-emde-boas-14+6", "--cache", "4K:128:8"})
+                              .out,
+                          "stdout");
+    ASSERT_EQ(rows.size(), 4u);
+    for (const results::Row& row : rows) EXPECT_GE(row.traffic_bytes, row.compulsory_bytes);
+    // Whoever says that more was found is refused.
+    auto json = nlohmann::json::parse(content(fs::path(few) / "trace.json"));
+    json["counts"]["nearest_found"] = count(a, "nearest_found") + 1;
+    write(fs::path(few) / "trace.json", json.dump());
+    expect_refused(bad_data, {"info", few, "--verify"},
+                   {"counts.nearest_found", fmt::format("expected {}", count(a, "nearest_found"))});
 }
 
 TEST(WalkAgain, WalksThatTellWhatWasFoundReadPowerOfThatAlone) {
