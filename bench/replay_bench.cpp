@@ -12,6 +12,7 @@
 #include "bench/room_walks.h"
 #include "cachesim/cache.h"
 #include "cachesim/lines.h"
+#include "replay/first_touches.h"
 #include "replay/replay.h"
 #include "spatial/heap_walk.h"
 #include "spatial/photons/nearest.h"
@@ -121,6 +122,45 @@ void replay_and_simulate(benchmark::State& state) {
         benchmark::Counter(accesses, benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(replay_and_simulate)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+
+/// What the orders share, on all cores: paid once.
+void hold_first_touches(benchmark::State& state) {
+    const replay::WalkStore walks = bench::walks();
+    const replay::Layout layout = bench::heap_20();
+    const std::array<std::uint32_t, 1> lines{128};
+    std::uint64_t bytes = 0;
+    for (auto unused : state) {
+        const replay::FirstTouches held(walks, layout, lines, std::uint64_t{1} << 34);
+        if (held.held_queries() != walks.queries()) state.SkipWithError("not all walks are held");
+        bytes = held.bytes();
+    }
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(walks.queries()));
+    state.counters["bytes/query"] = static_cast<double>(bytes) / static_cast<double>(walks.queries());
+}
+BENCHMARK(hold_first_touches)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+
+void replay_held_and_simulate(benchmark::State& state) {
+    const std::vector<std::uint32_t> order =
+        room().permutation(orderings[static_cast<std::size_t>(state.range(0))]);
+    const replay::WalkStore walks = bench::walks();
+    const replay::Layout layout = bench::heap_20();
+    const replay::ReplayConfig config{{cachesim::CacheConfig{}}, false, true};
+    const replay::ReplayConfig alone{config.caches, false};
+    const replay::Revisits revisits = replay::count_revisits(walks, layout, config);
+    const std::array<std::uint32_t, 1> lines{config.caches[0].line_bytes};
+    const replay::FirstTouches held(walks, layout, lines, std::uint64_t{1} << 34);
+    const std::uint64_t expected =
+        replay::replay(walks, layout, order, alone, replay::count_revisits(walks, layout, alone))
+            .caches[0]
+            .misses;
+    for (auto unused : state) {
+        const replay::Replayed replayed = replay::replay(walks, layout, order, config, revisits, held);
+        if (replayed.caches[0].misses != expected)
+            state.SkipWithError("another number of misses than the replay that decodes");
+    }
+    rate(state);
+}
+BENCHMARK(replay_held_and_simulate)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 
 #include "cachesim/distinct.h"
 #include "cachesim/lines.h"
+#include "replay/first_touches.h"
 #include "replay/walk_lines.h"
 #include "replay/walk_run.h"
 #include "trace/error.h"
@@ -25,11 +26,11 @@ constexpr std::uint32_t max_family_ways = 32;
 constexpr std::uint64_t max_family_sets = std::uint64_t{1} << 24;
 
 /// Simulated for itself: what no family serves, and one or two set-associative caches of a line size when
-/// nobody asks for classes, which take less time than the pass for all. (Below 16 sets one cache is slow; see
-/// set_engine.cpp.)
+/// nobody asks for classes or for families, which take less time than the pass for all. (Below 16 sets one
+/// cache is slow; see set_engine.cpp.)
 bool alone(const CacheConfig& cache, const ReplayConfig& config) {
     if (!family_serves(cache)) return true;
-    if (config.classes) return false;
+    if (config.classes || config.together) return false;
     std::size_t beside = 0;
     for (const CacheConfig& other : config.caches) {
         if (other.line_bytes != cache.line_bytes || !family_serves(other)) continue;
@@ -72,15 +73,17 @@ public:
     std::uint32_t line_bytes() const { return lines_.line_bytes(); }
     void add_family(const FamilyConfig& config) { family_.emplace(config); }
     void add_cache(const CacheConfig& config) { alone_.emplace_back(config); }
+    bool needs_all_touches() const { return !alone_.empty(); }
 
     void visit(std::span<const std::uint32_t> elements) {
         const std::span<const cachesim::Line> touches = lines_.touches(elements);
         accesses_ += touches.size();
         for (cachesim::LruCache& cache : alone_) cache.access(touches, trace::Region::photons);
-        if (!family_) return;
-        const WalkLines::First first = lines_.first(touches);
-        family_->access_first(first.lines, first.last_rank);
+        if (family_) visit_first(lines_.first(touches));
     }
+    /// In place of visit() where no cache needs all touches, but for the accesses.
+    void visit_first(const WalkLines::First& first) { family_->access_first(first.lines, first.last_rank); }
+    void set_accesses(std::uint64_t accesses) { accesses_ = accesses; }
 
     CacheTraffic traffic(const CacheConfig& config, const ReplayConfig& all, const Revisits& revisits) {
         const bool classes = all.classes;
@@ -182,9 +185,11 @@ bool serve(const Revisits& revisits, const ReplayConfig& config) {
     return true;
 }
 
-Replayed replay(const WalkStore& walks, const Layout& layout, std::span<const std::uint32_t> permutation,
-                const ReplayConfig& config, const Revisits& revisits, const QueriesDone& progress) {
-    assert(permutation.size() == walks.queries());
+namespace {
+
+/// A replay from its caches to their traffic; `run` puts the walks through them, one after the other.
+template <class Run>
+Replayed replayed(const Layout& layout, const ReplayConfig& config, const Revisits& revisits, Run&& run) {
     const auto start = std::chrono::steady_clock::now();
     std::vector<LineSize> sizes;
     const auto size_of = [&](std::uint32_t line_bytes) -> LineSize& {
@@ -197,15 +202,67 @@ Replayed replay(const WalkStore& walks, const Layout& layout, std::span<const st
         if (alone(cache, config)) size_of(cache.line_bytes).add_cache(cache);
 
     Replayed result;
-    result.visited_nodes =
-        run_walks(walks, permutation, progress, [&](std::span<const std::uint32_t> elements) {
-            result.raw_bytes += layout.bytes(elements);
-            for (LineSize& size : sizes) size.visit(elements);
-        });
+    run(std::span(sizes), result);
     for (const CacheConfig& cache : config.caches)
         result.caches.push_back(size_of(cache.line_bytes).traffic(cache, config, revisits));
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
+}
+
+/// Which line size of the held ones each is, as far as all can do with first touches that are held.
+std::optional<std::vector<std::size_t>> held_sizes(std::span<const LineSize> sizes,
+                                                   const FirstTouches& held) {
+    std::vector<std::size_t> found;
+    for (const LineSize& size : sizes) {
+        const auto at = std::find(held.line_sizes().begin(), held.line_sizes().end(), size.line_bytes());
+        if (size.needs_all_touches() || at == held.line_sizes().end()) return std::nullopt;
+        found.push_back(static_cast<std::size_t>(at - held.line_sizes().begin()));
+    }
+    return found;
+}
+
+}  // namespace
+
+Replayed replay(const WalkStore& walks, const Layout& layout, std::span<const std::uint32_t> permutation,
+                const ReplayConfig& config, const Revisits& revisits, const QueriesDone& progress) {
+    assert(permutation.size() == walks.queries());
+    return replayed(layout, config, revisits, [&](std::span<LineSize> sizes, Replayed& result) {
+        result.visited_nodes =
+            run_walks(walks, permutation, progress, [&](std::span<const std::uint32_t> elements) {
+                result.raw_bytes += layout.bytes(elements);
+                for (LineSize& size : sizes) size.visit(elements);
+            });
+    });
+}
+
+Replayed replay(const WalkStore& walks, const Layout& layout, std::span<const std::uint32_t> permutation,
+                const ReplayConfig& config, const Revisits& revisits, const FirstTouches& held,
+                const QueriesDone& progress) {
+    assert(permutation.size() == walks.queries());
+    bool serves = true;
+    Replayed result = replayed(layout, config, revisits, [&](std::span<LineSize> sizes, Replayed& found) {
+        const std::optional<std::vector<std::size_t>> held_size = held_sizes(sizes, held);
+        serves = held_size.has_value();
+        if (!serves) return;
+        std::vector<LineSize*> size_at(held.line_sizes().size());  // by the held ones
+        for (std::size_t s = 0; s < sizes.size(); ++s) size_at[(*held_size)[s]] = &sizes[s];
+        FirstTouches::Reader reader(held);
+        run_order(
+            walks, permutation, progress, held,
+            [&](std::uint32_t query) {
+                reader.read(query, [&](std::size_t s, const WalkLines::First& first) {
+                    if (size_at[s]) size_at[s]->visit_first(first);
+                });
+            },
+            [&](std::span<const std::uint32_t> elements) {
+                for (LineSize& size : sizes) size.visit(elements);
+            });
+        for (std::size_t s = 0; s < sizes.size(); ++s)
+            sizes[s].set_accesses(held.totals().accesses[(*held_size)[s]]);
+        found.visited_nodes = held.totals().visited_nodes;
+        found.raw_bytes = held.totals().raw_bytes;
+    });
+    return serves ? result : replay(walks, layout, permutation, config, revisits, progress);
 }
 
 std::vector<bool> touched_elements(const WalkStore& walks) {

@@ -19,6 +19,8 @@
 
 namespace regather::replay {
 
+class FirstTouches;
+
 using QueriesDone = std::function<void(std::uint64_t)>;
 
 /// Misses by class: Hill, "Aspects of Cache Memory and Instruction Buffer Performance", 1987. First touches
@@ -55,7 +57,9 @@ struct Replayed {
 /// What a replay is to find.
 struct ReplayConfig {
     std::vector<cachesim::CacheConfig> caches;
-    bool classes = false;  ///< MissClasses for every cache that a family serves.
+    bool classes = false;   ///< MissClasses for every cache that a family serves.
+    bool together = false;  ///< A family for whatever one serves, also for a single cache: cheaper for each
+                            ///< order, dearer in count_revisits().
 };
 
 /// The touches of lines that their walk touched before, counted for every cache of a family, by line size.
@@ -77,6 +81,12 @@ bool serve(const Revisits& revisits, const ReplayConfig& config);
 /// thread; several replays of one store can run at once. Throws as count_revisits().
 Replayed replay(const WalkStore& walks, const Layout& layout, std::span<const std::uint32_t> permutation,
                 const ReplayConfig& config, const Revisits& revisits, const QueriesDone& progress = {});
+
+/// The same, but walks whose first touches are held are not decoded, where families serve all caches;
+/// `first_touches` are of the same walks and layout.
+Replayed replay(const WalkStore& walks, const Layout& layout, std::span<const std::uint32_t> permutation,
+                const ReplayConfig& config, const Revisits& revisits, const FirstTouches& first_touches,
+                const QueriesDone& progress = {});
 
 /// The elements that any query visits, as a bitmap by their numbers. In parallel.
 std::vector<bool> touched_elements(const WalkStore& walks);

@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include <atomic>
+#include <concepts>
 #include <cstdint>
 #include <span>
 
@@ -18,32 +19,61 @@ namespace regather::replay {
 /// Throws trace::DataError that names the file and the query whose walk does not fit its structure.
 [[noreturn]] void refuse_walk(const WalkStore& walks, std::uint64_t query, spatial::WalkFault fault);
 
-/// Calls visit(elements) for the walk of each query of `permutation`. Returns the number of visited elements.
-template <class Visit>
-std::uint64_t run_walks(const WalkStore& walks, std::span<const std::uint32_t> permutation,
-                        const QueriesDone& progress, Visit&& visit) {
+/// Holds no walk: every one is decoded.
+struct NoneHeld {
+    bool holds(std::uint64_t) const { return false; }
+    void prefetch_place(std::uint64_t) const {}
+    void prefetch(std::uint64_t) const {}
+};
+
+/// Calls use_held(query) for each query of `permutation` that `held` holds (FirstTouches, NoneHeld), and
+/// visit(elements) for the walk of every other one. Returns the number of elements visited in the latter.
+template <class Held, class UseHeld, class Visit>
+std::uint64_t run_order(const WalkStore& walks, std::span<const std::uint32_t> permutation,
+                        const QueriesDone& progress, const Held& held, UseHeld&& use_held, Visit&& visit) {
     constexpr std::uint64_t prefetch_table = 32, prefetch_walk = 12, progress_queries = 1 << 16;
     const std::unique_ptr<spatial::WalkDecoder> decoder = walks.structure().decoder();
     std::uint64_t visited = 0;
     for (std::uint64_t r = 0; r < permutation.size(); ++r) {
-        if (r + prefetch_table < permutation.size()) walks.prefetch(permutation[r + prefetch_table]);
-        if (r + prefetch_walk < permutation.size()) {
-            const std::span<const std::uint8_t> ahead = walks.walk(permutation[r + prefetch_walk]);
-            __builtin_prefetch(ahead.data());
-            __builtin_prefetch(ahead.data() + ahead.size());
+        if (r + prefetch_table < permutation.size()) {
+            held.prefetch_place(permutation[r + prefetch_table]);
+            walks.prefetch(permutation[r + prefetch_table]);
         }
-        const auto [fault, elements] = decoder->decode(walks.walk(permutation[r]));
-        if (fault != spatial::WalkFault::none) refuse_walk(walks, permutation[r], fault);
-        visited += elements.size();
-        visit(elements);
+        if (r + prefetch_walk < permutation.size()) {
+            const std::uint32_t query = permutation[r + prefetch_walk];
+            if (held.holds(query)) {
+                held.prefetch(query);
+            } else {
+                const std::span<const std::uint8_t> ahead = walks.walk(query);
+                __builtin_prefetch(ahead.data());
+                __builtin_prefetch(ahead.data() + ahead.size());
+            }
+        }
+        const std::uint32_t query = permutation[r];
+        if (held.holds(query)) {
+            use_held(query);
+        } else {
+            const auto [fault, elements] = decoder->decode(walks.walk(query));
+            if (fault != spatial::WalkFault::none) refuse_walk(walks, query, fault);
+            visited += elements.size();
+            visit(elements);
+        }
         if (progress && (r + 1) % progress_queries == 0) progress(r + 1);
     }
     if (progress) progress(permutation.size());
     return visited;
 }
 
-/// Calls visit(part, elements) for the walk of every query, on all cores in any order: each thread has a Part
-/// of its own.
+/// Calls visit(elements) for the walk of each query of `permutation`. Returns the number of visited elements.
+template <class Visit>
+std::uint64_t run_walks(const WalkStore& walks, std::span<const std::uint32_t> permutation,
+                        const QueriesDone& progress, Visit&& visit) {
+    return run_order(
+        walks, permutation, progress, NoneHeld{}, [](std::uint32_t) {}, visit);
+}
+
+/// Calls visit(part, elements) or visit(part, query, elements) for the walk of every query, on all cores in
+/// any order: each thread has a Part of its own.
 template <class Part, class Visit>
 void run_all_walks(const WalkStore& walks, tbb::enumerable_thread_specific<Part>& parts,
                    const QueriesDone& progress, Visit&& visit) {
@@ -56,7 +86,10 @@ void run_all_walks(const WalkStore& walks, tbb::enumerable_thread_specific<Part>
         for (std::uint64_t q = range.begin(); q != range.end(); ++q) {
             const auto [fault, elements] = decoder->decode(walks.walk(q));
             if (fault != spatial::WalkFault::none) refuse_walk(walks, q, fault);
-            visit(part, elements);
+            if constexpr (std::invocable<Visit&, Part&, std::uint64_t, std::span<const std::uint32_t>>)
+                visit(part, q, elements);
+            else
+                visit(part, elements);
         }
         done += range.size();
         if (progress) progress(done);
