@@ -9,9 +9,18 @@
 #include "replay/layouts/catalogue.h"
 #include "replay/levels.h"
 #include "trace/error.h"
+#include "trace/free_memory.h"
 #include "trace/text.h"
 
 namespace regather::experiment {
+
+namespace {
+
+replay::ReplayConfig replay_config(std::span<const cachesim::CacheConfig> caches, const Method& method) {
+    return {{caches.begin(), caches.end()}, method.classes, method.several_orders};
+}
+
+}  // namespace
 
 Orderings parse_orderings(std::span<const std::string> specs) {
     Orderings orderings;
@@ -41,6 +50,7 @@ void Measurement::lay_out(replay::Layout layout) {
     layout_ = std::move(layout);
     revisits_.clear();
     line_use_.clear();
+    first_touches_.reset();
     compulsory_bytes.clear();
 }
 
@@ -61,8 +71,7 @@ void Measurement::prepare(std::span<const cachesim::CacheConfig> caches, const M
         replay::SetSample::check(caches, *method.sampling);
         line_use_ = replay::count_line_use(walks_, layout_, caches, progress);
     } else {
-        revisits_ = replay::count_revisits(walks_, layout_, {{caches.begin(), caches.end()}, method.classes},
-                                           progress);
+        revisits_ = replay::count_revisits(walks_, layout_, replay_config(caches, method), progress);
     }
 }
 
@@ -71,14 +80,27 @@ void Measurement::prepare(const replay::Revisits& revisits, const Method& method
     revisits_ = revisits;
 }
 
+void Measurement::hold_first_touches(std::span<const cachesim::CacheConfig> caches,
+                                     const std::function<void(std::uint64_t)>& progress) {
+    const std::uint64_t most_bytes = trace::free_memory() / 2;
+    std::set<std::uint32_t> sizes;
+    for (const cachesim::CacheConfig& cache : caches)
+        if (replay::family_serves(cache)) sizes.insert(cache.line_bytes);
+    if (sizes.empty()) return;
+    first_touches_.emplace(walks_, layout_, std::vector<std::uint32_t>(sizes.begin(), sizes.end()),
+                           most_bytes, progress);
+}
+
 replay::Replayed Measurement::replayed(std::span<const std::uint32_t> permutation,
                                        std::span<const cachesim::CacheConfig> caches,
                                        const std::function<void(std::uint64_t)>& progress) const {
     if (method_.sampling)
         return replay::SetSample(walks_, layout_, caches, *method_.sampling, line_use_)
             .replay(permutation, progress);
-    return replay::replay(walks_, layout_, permutation, {{caches.begin(), caches.end()}, method_.classes},
-                          revisits_, progress);
+    const replay::ReplayConfig config = replay_config(caches, method_);
+    return first_touches_
+               ? replay::replay(walks_, layout_, permutation, config, revisits_, *first_touches_, progress)
+               : replay::replay(walks_, layout_, permutation, config, revisits_, progress);
 }
 
 void Measurement::through(const reorder::Ordered& ordered, std::span<cachesim::Hierarchy> systems,

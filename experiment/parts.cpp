@@ -93,20 +93,25 @@ void find_compulsory(Measurement& measurement, const Experiment& experiment, con
 
 /// What the replays of all trials share; kept when it is exact.
 void prepare(Measurement& measurement, const Experiment& experiment, const PartStore& store,
-             const trace::TraceReader& trace, const ProgressListener& progress) {
+             const trace::TraceReader& trace, std::size_t missing, const ProgressListener& progress) {
     const std::vector<cachesim::CacheConfig> caches = all_caches(experiment);
-    const Part kept =
-        part(store, "revisits", trace, measurement, method_text(experiment.method) + cache_texts(caches));
-    const bool exact = !experiment.method.sampling;
+    Method method = experiment.method;
+    method.several_orders = experiment.trials.size() > 1;
+    const Part kept = part(store, "revisits", trace, measurement,
+                           fmt::format("{}{}{}", method_text(method), cache_texts(caches),
+                                       method.several_orders ? " several orders" : ""));
+    const bool exact = !method.sampling;
+    const auto listener = [&](const char* stage) {
+        return listening(progress, fmt::format(fmt::runtime(stage), place(measurement)), "queries",
+                         measurement.queries());
+    };
     if (const auto text = exact ? read_kept(kept.path, kept.key) : std::nullopt) {
-        measurement.prepare(revisits_in(*text, kept.path), experiment.method);
-        return;
+        measurement.prepare(revisits_in(*text, kept.path), method);
+    } else {
+        measurement.prepare(caches, method, listener("counting what no order of {} changes"));
+        if (exact) write_kept(kept.path, kept.key, text_of(measurement.revisits()));
     }
-    measurement.prepare(
-        caches, experiment.method,
-        listening(progress, fmt::format("counting what no order of {} changes", place(measurement)),
-                  "queries", measurement.queries()));
-    if (exact) write_kept(kept.path, kept.key, text_of(measurement.revisits()));
+    if (exact && missing > 1) measurement.hold_first_touches(caches, listener("finding first touches of {}"));
 }
 
 /// Their orders are made before the replays, one by one, so that order_seconds is measured on a machine that
@@ -165,7 +170,7 @@ std::vector<results::Row> rows_in_layout(Measurement& measurement, trace::TraceR
         if (!texts[t]) missing.push_back(t);
     }
     if (!missing.empty()) {
-        prepare(measurement, experiment, store, trace, progress);
+        prepare(measurement, experiment, store, trace, missing.size(), progress);
         replay(measurement, experiment, parts, missing, progress);
     }
     std::vector<results::Row> rows;

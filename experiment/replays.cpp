@@ -33,9 +33,11 @@ std::vector<replay::Layout> laid_out(const Measurement& measurement, std::span<c
 }  // namespace
 
 std::vector<results::Row> through_caches(Measurement& measurement, const Replays& replays,
-                                         std::span<const cachesim::CacheConfig> caches, const Method& method,
+                                         std::span<const cachesim::CacheConfig> caches, const Method& asked,
                                          const ProgressListener& progress) {
     if (!replays.treelets.empty()) replay::hierarchy_of(measurement.walks());
+    Method method = asked;
+    method.several_orders = replays.orderings.size() > 1;
     std::set<std::uint32_t> lines;
     for (const cachesim::CacheConfig& cache : caches) lines.insert(cache.line_bytes);
     std::vector<results::Row> rows;
@@ -46,6 +48,9 @@ std::vector<results::Row> through_caches(Measurement& measurement, const Replays
         measurement.prepare(
             caches, method,
             listening(progress, "counting what no order changes" + on, "queries", measurement.queries()));
+        if (method.several_orders && !method.sampling)
+            measurement.hold_first_touches(
+                caches, listening(progress, "finding first touches" + on, "queries", measurement.queries()));
         std::vector<results::Row> of_layout;
         const auto add = [&](std::vector<results::Row> more) {
             for (results::Row& row : more) of_layout.push_back(std::move(row));
