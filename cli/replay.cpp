@@ -36,7 +36,8 @@ void run(const Options& options, const Console& console) {
     if (!options.csv.empty()) results::refuse_to_overwrite(options.csv, options.force);
     const auto [orderings, reads] = experiment::parse_orderings(options.orders);
     const auto caches = cachesim::parse_caches(options.caches);
-    experiment::Method method{.classes = options.classes, .buffers = options.buffers};
+    experiment::Method method{
+        .classes = options.classes, .buffers = options.buffers, .several_orders = false, .sampling = {}};
     if (options.one_of != 1) {
         method.sampling = replay::Sampling{options.one_of, options.seed};
         replay::SetSample::check(caches, *method.sampling);
