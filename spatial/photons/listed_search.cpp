@@ -65,7 +65,8 @@ std::unique_ptr<PhotonSearch> build_listed<BlockHashing>(std::span<const Photon>
                                                          std::uint32_t, float) {
     const BlockHashing::Config config{
         .tables = given.count("tables"), .block = given.count("block"), .blocks = given.count("blocks")};
-    return std::make_unique<BlockSearch>(heap, config, given.count("found") == 1, text);
+    const std::string name = std::move(text);
+    return std::make_unique<BlockSearch>(heap, config, given.count("found") == 1, name);
 }
 
 template <class Index>
