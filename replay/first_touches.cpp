@@ -3,6 +3,7 @@
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cstdlib>
 #include <limits>
@@ -11,7 +12,6 @@
 #include "replay/walk_run.h"
 
 namespace regather::replay {
-
 namespace {
 
 constexpr std::size_t chunk_bytes = std::size_t{32} << 20, huge_page = std::size_t{2} << 20;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "results/geometry.h"
+#include "results/machine_columns.h"
 
 namespace regather::results {
 namespace {
@@ -14,7 +15,7 @@ constexpr Column of_machine(std::string_view name, bool is_needed = false) {
     return column<field, FrameRow>(name, is_needed);
 }
 
-constexpr Column columns[] = {
+constexpr auto columns = with_machine_counts<FrameRow>(std::array{
     of_machine<&FrameRow::scene>("scene"),
     column<&FrameRow::frame>("frame"),
     column<&FrameRow::unit>("unit", needed),
@@ -28,26 +29,7 @@ constexpr Column columns[] = {
     of_machine<&FrameRow::level>("level", needed),
     of_machine<&FrameRow::region>("region", needed),
     column<&FrameRow::queries>("queries"),
-    of_machine<&FrameRow::accesses>("accesses"),
-    of_machine<&FrameRow::hits>("hits"),
-    of_machine<&FrameRow::misses>("misses"),
-    of_machine<&FrameRow::sector_misses>("sector_misses"),
-    of_machine<&FrameRow::victim_hits>("victim_hits"),
-    of_machine<&FrameRow::writebacks>("writebacks"),
-    of_machine<&FrameRow::clean_victims>("clean_victims"),
-    of_machine<&FrameRow::writes_through>("writes_through"),
-    of_machine<&FrameRow::back_invalidations>("back_invalidations"),
-    of_machine<&FrameRow::prefetches>("prefetches"),
-    of_machine<&FrameRow::useful_prefetches>("useful_prefetches"),
-    of_machine<&FrameRow::bytes_in>("bytes_in"),
-    of_machine<&FrameRow::bytes_out>("bytes_out"),
-    of_machine<&FrameRow::bursts_read>("bursts_read"),
-    of_machine<&FrameRow::bursts_written>("bursts_written"),
-    of_machine<&FrameRow::row_hits>("row_hits"),
-    of_machine<&FrameRow::row_empty>("row_empty"),
-    of_machine<&FrameRow::row_conflicts>("row_conflicts"),
-    of_machine<&FrameRow::picojoules>("picojoules"),
-};
+});
 
 std::string difference(std::uint64_t together_bytes, std::uint64_t apart_bytes) {
     return together_bytes < apart_bytes ? "-" + decimal_bytes(apart_bytes - together_bytes)

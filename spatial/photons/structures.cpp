@@ -42,6 +42,16 @@ constexpr trace::Parameter hashing_parameters[] = {
     {"blocks", "0", "most blocks that a search looks at, 1 to 1024; 0: all that its buckets name"},
     {"found", "0", found_help}};
 
+struct Range {
+    std::uint32_t least, most;
+};
+/// Of a parameter's values; 0 is that of a switch or limit that is not set.
+Range range_of(std::string_view parameter) {
+    if (parameter == "found" || parameter == "bounds") return {0, 1};
+    if (parameter == "blocks") return {0, BlockHashing::most_tables * BlockHashing::most_named};
+    return {1, 64};
+}
+
 bool tells_found(const trace::Parameters& given) {
     return given.knows("found") && given.count("found") == 1;
 }
@@ -241,13 +251,9 @@ StructureSpec parse_structure(std::string_view spec) {
     std::string text(entry.name);
     for (const trace::Parameter& parameter : entry.parameters) {
         const std::uint32_t value = parameters.count(parameter.name);
-        const bool is_switch = parameter.name == "found" || parameter.name == "bounds",
-                   is_limit = parameter.name == "blocks";
-        trace::require_range(entry.name, parameter.name, value, is_switch || is_limit ? 0 : 1,
-                             is_switch  ? 1
-                             : is_limit ? BlockHashing::most_tables * BlockHashing::most_named
-                                        : 64);
-        if ((is_switch || is_limit) && value == 0) continue;  // as if there were no such parameter
+        const auto [least, most] = range_of(parameter.name);
+        trace::require_range(entry.name, parameter.name, value, least, most);
+        if (value == 0) continue;  // as if there were no such parameter
         text += fmt::format("{}{}={}", text.size() == entry.name.size() ? ":" : ",", parameter.name, value);
     }
     return {&entry, std::move(parameters), std::move(text)};

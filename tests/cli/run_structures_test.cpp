@@ -4,6 +4,7 @@
 #include "experiment/experiment.h"
 #include "results/csv.h"
 #include "tests/cli/expect.h"
+#include "tests/cli/refused_experiment.h"
 #include "trace/error.h"
 #include "trace/folder.h"
 
@@ -56,15 +57,7 @@ protected:
         std::string text = experiment;
         const auto at = text.find(before);
         ASSERT_NE(at, text.npos) << before;
-        write(file_, text.replace(at, before.size(), after));
-        try {
-            experiment::load_experiment(file_);
-            ADD_FAILURE() << "accepted: " << text;
-        } catch (const trace::DataError& error) {
-            EXPECT_THAT(error.what(),
-                        testing::AllOf(HasSubstr("experiment.json: line "), testing::Not(HasSubstr("\n"))));
-            for (const std::string& part : parts) EXPECT_THAT(error.what(), HasSubstr(part));
-        }
+        expect_refused(file_, text.replace(at, before.size(), after), "experiment.json: line ", parts);
     }
 
     const Scratch scratch_;

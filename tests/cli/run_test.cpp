@@ -11,6 +11,7 @@
 #include "experiment/kept.h"
 #include "results/csv.h"
 #include "tests/cli/expect.h"
+#include "tests/cli/refused_experiment.h"
 #include "tests/column.h"
 #include "trace/error.h"
 #include "trace/folder.h"
@@ -51,15 +52,7 @@ protected:
     }
     /// As the command would refuse it.
     void refused(const std::string& text, const std::vector<std::string>& parts_of_message) const {
-        write(file_, text);
-        try {
-            experiment::load_experiment(file_);
-            ADD_FAILURE() << "accepted: " << text;
-        } catch (const trace::DataError& error) {
-            EXPECT_THAT(error.what(),
-                        testing::AllOf(HasSubstr("experiment.json: "), testing::Not(HasSubstr("\n"))));
-            for (const std::string& part : parts_of_message) EXPECT_THAT(error.what(), HasSubstr(part));
-        }
+        expect_refused(file_, text, "experiment.json: ", parts_of_message);
     }
     /// The experiment with another text in place of one that occurs once.
     static std::string with(const std::string& before, const std::string& after) {

@@ -12,11 +12,11 @@
 #include <set>
 
 #include "spatial/curve.h"
-#include "spatial/list_walk.h"
 #include "spatial/photons/recall.h"
 #include "spatial/photons/structures.h"
 #include "tests/spatial/brute_force.h"
 #include "tests/spatial/photons.h"
+#include "tests/spatial/recorded_visits.h"
 #include "trace/error.h"
 
 namespace regather::spatial {
@@ -26,15 +26,6 @@ using testing::ElementsAre;
 using trace::Region;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-struct Recorded {
-    std::vector<std::uint32_t> visited;
-    ListWalkRecorder recorder;
-    void visit(std::uint32_t element) {
-        visited.push_back(element);
-        recorder.visit(element);
-    }
-};
 
 /// Photons whose coordinates no threshold of the table lies between.
 bool share_a_bucket(const BlockHashing& hashing, std::uint32_t table, Vec3 a, Vec3 b) {
@@ -84,7 +75,7 @@ std::vector<Neighbor> nearest_in(const BlockHashing& hashing, std::span<const Ph
 
 std::vector<std::uint32_t> visits_of(const BlockHashing& hashing, Vec3 point) {
     NearestSet found(1);
-    Recorded search;
+    RecordedVisits search;
     nearest(hashing, point, found, search);
     return search.visited;
 }
@@ -149,7 +140,7 @@ TEST(BlockHashing, SearchesFindWhatASlowModelFindsAndTheirWalksDecode) {
             point = photons[*rc::gen::inRange<std::size_t>(0, photons.size())].position;
         const std::vector<std::uint32_t> blocks = slow_blocks(hashing, photons, point, config.blocks);
         NearestSet found(k, radius);
-        Recorded search;
+        RecordedVisits search;
         nearest(hashing, point, found, search);
         RC_ASSERT(same(found.nearest_first(), nearest_in(hashing, photons, blocks, point, k, radius)));
         search.recorder.finish();
@@ -283,7 +274,7 @@ TEST(BlockHashing, OneBlockHasAll) {
 TEST(BlockHashing, WhatDoesNotFitIsRefused) {
     std::vector<Photon> photons = uniform_photons(100);
     NearestSet found(5);
-    Recorded search;
+    RecordedVisits search;
     nearest(BlockHashing(photons, {}), {0, infinity, 0}, found, search);
     EXPECT_EQ(found.size(), 0u);
     EXPECT_TRUE(search.visited.empty());

@@ -10,13 +10,13 @@
 #include <limits>
 #include <numeric>
 
-#include "spatial/list_walk.h"
 #include "spatial/photons/hashed_grid.h"
 #include "spatial/photons/photon_bvh.h"
 #include "spatial/photons/photon_grid.h"
 #include "spatial/photons/photon_octree.h"
 #include "tests/spatial/brute_force.h"
 #include "tests/spatial/photons.h"
+#include "tests/spatial/recorded_visits.h"
 #include "trace/error.h"
 
 namespace regather::spatial {
@@ -26,15 +26,6 @@ using testing::ElementsAre;
 using trace::Region;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-struct Recorded {
-    std::vector<std::uint32_t> visited;
-    ListWalkRecorder recorder;
-    void visit(std::uint32_t element) {
-        visited.push_back(element);
-        recorder.visit(element);
-    }
-};
 
 template <class Index>
 class ListedSearchOf : public testing::Test {};
@@ -50,7 +41,7 @@ TYPED_TEST(ListedSearchOf, FindsWhatLookingAtEveryPhotonFindsAndItsWalksDecode) 
         const auto k = *rc::gen::inRange<std::uint32_t>(0, 30);
         const float radius = *rc::gen::element(infinity, 1.0f, 0.0f);
         NearestSet found(k, radius);
-        Recorded search;
+        RecordedVisits search;
         const Vec3 point{coordinate(), coordinate(), coordinate()};
         nearest(index, point, found, search);
         RC_ASSERT(same(found.nearest_first(), brute_force(photons, point, k, radius)));
@@ -121,7 +112,7 @@ TYPED_TEST(ListedSearchOf, PartsHoldEveryPhotonOnceBelowWhatLeadsToThem) {
 TYPED_TEST(ListedSearchOf, APointOrPhotonNowhereFindsNothingOrIsRefused) {
     std::vector<Photon> photons = uniform_photons(100);
     NearestSet found(5);
-    Recorded search;
+    RecordedVisits search;
     nearest(TypeParam(photons, 8), {0, infinity, 0}, found, search);
     EXPECT_EQ(found.size(), 0u);
     EXPECT_TRUE(search.visited.empty());
@@ -142,7 +133,7 @@ TEST(ListedSearch, AGridsShellsAreThoseDrawnByHand) {
     // From 2.6 the nearest photon is at 3.2. Its own cell, 2, is empty; then 1, whose photon is 1.1 away,
     // and 3. Shell 2 begins at 1 and 4, both farther than 0.6.
     NearestSet found(1);
-    Recorded search;
+    RecordedVisits search;
     nearest(grid, {2.6f, 0, 0}, found, search);
     EXPECT_THAT(search.visited, ElementsAre(2, 1, 6, 3, 7));
     EXPECT_EQ(found[0].node, 3u);
@@ -167,7 +158,7 @@ TEST(ListedSearch, AHashedGridReadsEntriesUpToTheCellOrAnEmptyOne) {
     EXPECT_TRUE(2 * used <= entries && entries < 4 * used);
     // Far from all clusters shells soon have more cells than the table: it is read from end to end, once.
     NearestSet found(3000);
-    Recorded search;
+    RecordedVisits search;
     nearest(grid, {0.5f, 0.5f, 0.5f}, found, search);
     EXPECT_EQ(found.size(), 3000u);
     EXPECT_LT(search.visited.size(), 10 * std::size_t{entries});
@@ -191,7 +182,7 @@ TEST(ListedSearch, OctantsAreThoseDrawnByHand) {
     // (1, 3, 4.5) lies in octant 1, whose photon is 0.5 away. So is octant 0: it is entered; of its own
     // octants the one up to 2 is 1 away along y, the one from 2 on along x. Octant 7 is 3 away.
     NearestSet found(1);
-    Recorded search;
+    RecordedVisits search;
     nearest(tree, {1, 3, 4.5f}, found, search);
     EXPECT_EQ(found[0].node, 2u);
     EXPECT_THAT(search.visited, ElementsAre(0, 4, 1));
@@ -207,7 +198,7 @@ TEST(ListedSearch, ABvhsNodesHoldTheTightBoxesOfTheirChildren) {
     EXPECT_THAT(tree.share_structure()->elements().parent, ElementsAre(0, 0, 0, 1, 1, 2, 2));
     // From 3.4 node 1's box is 0.4 away: leaf 4 has photon 6 at 3. All else is farther than that.
     NearestSet found(1);
-    Recorded search;
+    RecordedVisits search;
     nearest(tree, {3.4f, 0, 0}, found, search);
     EXPECT_THAT(search.visited, ElementsAre(0, 1, 4));
     EXPECT_EQ(found[0].node, 6u);
