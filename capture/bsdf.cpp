@@ -7,8 +7,6 @@
 namespace regather::capture {
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
-
 float mean(Vec3 v) {
     return (v.x + v.y + v.z) / 3;
 }
@@ -70,7 +68,7 @@ double pdf_of(const Material& material, Vec3 normal, Vec3 outgoing, Half half) {
 }
 
 Vec3 value_of(const Material& material, Half half) {
-    Vec3 value = material.diffuse * (1 / pi);
+    Vec3 value = material.diffuse * (1 / std::numbers::pi_v<float>);
     if (half.power > 0)
         value += material.specular * static_cast<float>(blinn_phong_norm(material.exponent) * half.power);
     return value;
@@ -90,7 +88,7 @@ Frame::Frame(Vec3 n) : normal(n) {
 }
 
 Vec3 cosine_hemisphere(float u, float v) {
-    const float r = std::sqrt(u), phi = 2 * pi * v;
+    const float r = std::sqrt(u), phi = 2 * std::numbers::pi_v<float> * v;
     return {r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0f, 1 - u))};
 }
 

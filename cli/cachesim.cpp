@@ -25,7 +25,7 @@ namespace regather::cli {
 
 namespace {
 
-struct Options {
+struct CachesimOptions {
     cachesim::AddressFiles files;
     experiment::CacheLists lists;
     std::string machines;
@@ -47,7 +47,7 @@ std::vector<cachesim::PolicyConfig> combinations(const experiment::CacheLists& l
 }
 
 /// What the values tell: options that the others leave without effect.
-void check_effects(const Command& command, const Options& options) {
+void check_effects(const Command& command, const CachesimOptions& options) {
     const auto asks_for = [&](std::string_view policy) {
         const auto all = cachesim::list_parts(options.lists.policies);
         return std::find(all.begin(), all.end(), policy) != all.end();
@@ -59,7 +59,8 @@ void check_effects(const Command& command, const Options& options) {
 }
 
 /// Every LRU cache of the line sizes.
-std::vector<results::CacheRow> all_lru(const Options& options, const experiment::SweepListeners& listeners) {
+std::vector<results::CacheRow> all_lru(const CachesimOptions& options,
+                                       const experiment::SweepListeners& listeners) {
     std::vector<std::uint32_t> line_sizes;
     if (options.lists.lines.empty()) throw trace::UsageError("--line: found none, expected one");
     for (const std::string_view text : cachesim::list_parts(options.lists.lines)) {
@@ -78,14 +79,14 @@ std::vector<results::CacheRow> all_lru(const Options& options, const experiment:
 
 /// As CSV on stdout; or into the file, with a table on stdout.
 template <class R>
-void give(const std::vector<R>& rows, const Options& options, const Console& console) {
+void give(const std::vector<R>& rows, const CachesimOptions& options, const Console& console) {
     if (options.csv.empty()) return console.print("{}", results::to_csv<R>(rows));
     results::write_csv<R>(options.csv, rows);
     results::write_provenance(options.csv, provenance(console, {}));
     console.print("{}rows: {}\n", results::text_of(results::table_of<R>(rows)), options.csv.string());
 }
 
-void run(const Options& options, const Console& console) {
+void simulate(const CachesimOptions& options, const Console& console) {
     std::vector<cachesim::Machine> machines;
     std::vector<cachesim::PolicyConfig> configs;
     if (!options.machines.empty())
@@ -112,7 +113,7 @@ void run(const Options& options, const Console& console) {
 }  // namespace
 
 void add_cachesim(Command& command) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CachesimOptions>();
     command
         .argument(
             "ADDRESSES", options->files.addresses,
@@ -162,9 +163,9 @@ void add_cachesim(Command& command) {
         "  regather cachesim program.din --size 32K --line 64 --ways 8 --policy lru,plru,opt --write "
         "through\n"
         "  regather cachesim addresses.npy --machine paper-128k,gpu-a100 --csv levels.csv");
-    command.action(options, [&command](const Options& asked, const Console& console) {
+    command.action(options, [&command](const CachesimOptions& asked, const Console& console) {
         check_effects(command, asked);
-        run(asked, console);
+        simulate(asked, console);
     });
 }
 

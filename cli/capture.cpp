@@ -11,11 +11,11 @@
 namespace regather::cli {
 namespace {
 
-struct Options {
+struct CaptureOptions {
     experiment::CaptureJob job;
 };
 
-void run(const Options& options, const Console& console) {
+void make_trace(const CaptureOptions& options, const Console& console) {
     experiment::CaptureResult result;
     experiment::CaptureJob job = options.job;
     const Interruption interruption;
@@ -36,7 +36,7 @@ void run(const Options& options, const Console& console) {
 }  // namespace
 
 void add_capture(Command& command) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CaptureOptions>();
     experiment::CaptureJob& job = options->job;
     command.argument("scene", job.scene, "an embedded scene's name or a scene file").required();
     command.option("-o,--output", job.folder, "folder for image.exr, image.png and trace/").required();
@@ -47,9 +47,9 @@ void add_capture(Command& command) {
         "Examples:\n"
         "  regather capture room -o out/room --width 128 --height 128 --photons 100000\n"
         "  regather capture my_scene.json -o out/mine --k 50 --radius 0.3");
-    command.action(options, [&command](const Options& asked, const Console& console) {
+    command.action(options, [&command](const CaptureOptions& asked, const Console& console) {
         check_capture_options(command, asked.job.options);
-        run(asked, console);
+        make_trace(asked, console);
     });
 }
 

@@ -29,7 +29,7 @@ struct Request {
     bool force = false;
 };
 
-void run(const Request& request, const Console& console) {
+void draw_charts(const Request& request, const Console& console) {
     charts::ChartOptions options;
     options.tile = request.tile;
     options.bins = request.bins;
@@ -103,7 +103,7 @@ void add_chart(Command& command) {
                    "write the rows on the curves of best-under-budget here, a CSV");
     command.flag("--force", request->force, "replace files that exist");
     command.footer(footer());
-    command.action(request, run);
+    command.action(request, draw_charts);
 }
 
 }  // namespace regather::cli

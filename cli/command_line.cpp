@@ -22,7 +22,7 @@
 namespace regather::cli {
 namespace {
 
-using Words = std::span<const std::string>;
+using WordSpan = std::span<const std::string>;
 
 std::string help() {
     std::size_t widest = 0;
@@ -48,7 +48,7 @@ std::vector<std::string_view> names() {
 }
 
 /// Words that begin with no subcommand's name.
-void run_without_subcommand(Words words, const Console& console) {
+void run_without_subcommand(WordSpan words, const Console& console) {
     if (words.empty())
         throw trace::UsageError(
             fmt::format("SUBCOMMAND: found nothing, expected one of {}", trace::listed(names())));
@@ -65,7 +65,7 @@ void run_without_subcommand(Words words, const Console& console) {
                     trace::alternatives(trace::nearest_words(word, names())), trace::listed(names())));
 }
 
-void run_words(Words words, const Console& console) {
+void run_words(WordSpan words, const Console& console) {
     const auto known = subcommands();
     const auto entry = std::find_if(known.begin(), known.end(), [&](const Subcommand& one) {
         return !words.empty() && one.name == words.front();
@@ -93,8 +93,9 @@ int fail(const Console& console, int code, std::string_view message) {
 
 int run(const Console& console) {
     try {
-        run_words(Words(console.command_line).subspan(std::min<std::size_t>(1, console.command_line.size())),
-                  console);
+        run_words(
+            WordSpan(console.command_line).subspan(std::min<std::size_t>(1, console.command_line.size())),
+            console);
         // What was printed has reached its file, or the run has failed.
         if (std::fflush(console.out) == 0 && std::ferror(console.out) == 0) return done;
         return fail(console, run_failed, fmt::format("stdout: cannot write: {}", std::strerror(errno)));

@@ -46,7 +46,7 @@ study::Converged measure(const study::ConvergenceJob& job, const Console& consol
     }
 }
 
-void run(const study::ConvergenceJob& job, const Console& console) {
+void run_convergence(const study::ConvergenceJob& job, const Console& console) {
     const study::Converged made = measure(job, console);
     console.print("{}, {} x {} pixels, {} seeds; % of the mean radiance {:.4g} W / (m^2 sr)\n",
                   trace::shown(made.scene), made.config.width, made.config.height, made.config.seeds,
@@ -94,7 +94,7 @@ void add_converge(Command& command) {
         "  regather converge box -o out/box-converge --seconds 120\n"
         "  regather converge room -o out/room-converge --width 128 --reference out/room-reference --seconds "
         "600");
-    command.action(job, run);
+    command.action(job, run_convergence);
 }
 
 }  // namespace regather::cli

@@ -21,7 +21,7 @@
 namespace regather::cli {
 namespace {
 
-struct Options {
+struct DetailOptions {
     std::filesystem::path trace, csv, timeline;
     std::vector<std::string> orders, caches{"128K:128:8"};
     std::string onchip = "1M", layout;
@@ -37,7 +37,7 @@ void write(const std::filesystem::path& csv, const std::vector<R>& rows, const t
     results::write_provenance(csv, provenance(console, trace.checksum()), trace.info().parameters);
 }
 
-void run(const Options& options, const Console& console) {
+void tell_detail(const DetailOptions& options, const Console& console) {
     const results::Output outputs[] = {{"--csv", options.csv}, {"--timeline", options.timeline}};
     results::refuse_to_overwrite(outputs, options.force);
     const auto [orderings, reads] = experiment::parse_orderings(options.orders);
@@ -74,7 +74,7 @@ void run(const Options& options, const Console& console) {
 }  // namespace
 
 void add_detail(Command& command) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<DetailOptions>();
     command.argument("trace", options->trace, "the folder of a finished trace").required();
     command
         .list("--order,--reorderer", options->orders,
@@ -99,7 +99,7 @@ void add_detail(Command& command) {
         "Example:\n"
         "  regather detail out/room/trace --order naive hilbert hilbert:tile=16 --csv detail.csv --timeline "
         "timeline.csv");
-    command.action(options, run);
+    command.action(options, tell_detail);
 }
 
 }  // namespace regather::cli

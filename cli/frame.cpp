@@ -18,7 +18,7 @@
 namespace regather::cli {
 namespace {
 
-struct Options {
+struct FrameOptions {
     experiment::CombinedFrame frame;
     std::filesystem::path csv;
     std::vector<std::string> units{"pixel"}, caches{"128K:128:8"};
@@ -26,7 +26,7 @@ struct Options {
     bool force = false;
 };
 
-void run(const Options& options, const Console& console) {
+void replay_frame(const FrameOptions& options, const Console& console) {
     if (!options.csv.empty()) results::refuse_to_overwrite(options.csv, options.force);
     experiment::CombinedFrame frame = options.frame;
     frame.units = options.units;
@@ -51,7 +51,7 @@ void run(const Options& options, const Console& console) {
 }  // namespace
 
 void add_frame(Command& command) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<FrameOptions>();
     command
         .arguments(
             "traces", options->frame.traces,
@@ -81,7 +81,7 @@ void add_frame(Command& command) {
         "  regather frame out/eye out/shadow out/specular out/gather out/room/trace --order naive --unit "
         "pixel\n"
         "    tile=16 frame --machine paper-128k,gpu-a100 --csv frame.csv");
-    command.action(options, run);
+    command.action(options, replay_frame);
 }
 
 }  // namespace regather::cli

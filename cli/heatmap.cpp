@@ -19,14 +19,14 @@
 namespace regather::cli {
 namespace {
 
-struct Options {
+struct HeatmapOptions {
     std::filesystem::path trace, folder;
     std::vector<std::string> orders{"naive", "hilbert"};
     std::string cache = "128K:128:8";
     bool force = false;
 };
 
-void run(const Options& options, const Console& console) {
+void draw_heatmap(const HeatmapOptions& options, const Console& console) {
     const std::filesystem::path exr = options.folder / "traffic.exr", png = options.folder / "traffic.png";
     trace::refuse_to_overwrite(std::array{exr, png}, options.force);
     const auto caches = cachesim::parse_caches(options.cache);
@@ -55,7 +55,7 @@ void run(const Options& options, const Console& console) {
 }  // namespace
 
 void add_heatmap(Command& command) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<HeatmapOptions>();
     command.argument("trace", options->trace, "the folder of a finished trace").required();
     command.list("--order,--reorderer", options->orders,
                  "orderings as NAME:parameter=value,...; file:KEYS.npy; or the path of a shared library");
@@ -64,7 +64,7 @@ void add_heatmap(Command& command) {
     command.flag("--force", options->force, "overwrite the files");
     command.footer(
         "Example:\n  regather heatmap out/room/trace --order naive hilbert:tile=16 hilbert -o out/room");
-    command.action(options, run);
+    command.action(options, draw_heatmap);
 }
 
 }  // namespace regather::cli

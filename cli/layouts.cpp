@@ -11,9 +11,9 @@
 namespace regather::cli {
 namespace {
 
-struct Nothing {};
+struct LayoutsOptions {};
 
-void run(const Nothing&, const Console& console) {
+void list_layouts(const LayoutsOptions&, const Console& console) {
     using results::Align;
     results::Table orders({{"order", Align::left}, {"how memory holds the elements", Align::left}});
     for (const replay::LayoutOrder& order : replay::layout_orders())
@@ -49,7 +49,7 @@ void add_layouts(Command& command) {
         "  regather layouts             # their orders and records, for:\n"
         "  regather replay out/room/trace --order naive hilbert --layout heap-20 van-emde-boas-20 "
         "clusters-32:line=128");
-    command.action(std::make_shared<Nothing>(), run);
+    command.action(std::make_shared<LayoutsOptions>(), list_layouts);
 }
 
 }  // namespace regather::cli

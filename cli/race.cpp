@@ -20,7 +20,7 @@
 namespace regather::cli {
 namespace {
 
-struct Options {
+struct RaceOptions {
     std::filesystem::path trace, csv;
     std::vector<std::string> orders{"naive", "random", "tiled", "hilbert", "hilbert:tile=16", "morton"};
     std::vector<std::string> structures{"left-balanced", "bucketed"};
@@ -41,7 +41,7 @@ std::vector<experiment::Structure> parse_structures(const std::vector<std::strin
     return parsed;
 }
 
-void race(const Options& options, const Console& console) {
+void race(const RaceOptions& options, const Console& console) {
     if (!options.csv.empty()) results::refuse_to_overwrite(options.csv, options.force);
     experiment::TraceRace asked{.orderings = experiment::parse_orderings(options.orders),
                                 .structures = parse_structures(options.structures),
@@ -65,7 +65,7 @@ void race(const Options& options, const Console& console) {
 }  // namespace
 
 void add_race(Command& command) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RaceOptions>();
     command.argument("trace", options->trace, "the folder of a finished trace").required();
     command.list("--order,--reorderer", options->orders,
                  "orderings as in replay; naive, which the others are compared with, runs in any case");

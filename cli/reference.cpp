@@ -17,13 +17,13 @@
 namespace regather::cli {
 namespace {
 
-struct Options {
+struct ReferenceOptions {
     experiment::ReferenceJob job;
     std::optional<std::uint32_t> samples;
     std::optional<double> seconds;
 };
 
-void run(const Options& options, const Console& console) {
+void make_reference(const ReferenceOptions& options, const Console& console) {
     experiment::ReferenceJob job = options.job;
     job.goal = {options.samples.value_or(options.seconds ? std::numeric_limits<std::uint32_t>::max() : 256),
                 options.seconds.value_or(std::numeric_limits<double>::infinity())};
@@ -46,7 +46,7 @@ void run(const Options& options, const Console& console) {
 }  // namespace
 
 void add_reference(Command& command) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ReferenceOptions>();
     experiment::ReferenceJob& job = options->job;
     command.argument("scene", job.scene, "an embedded scene's name or a scene file").required();
     command.option("-o,--output", job.folder, "folder for reference.exr, variance.exr and the samples' state")
@@ -65,7 +65,7 @@ void add_reference(Command& command) {
         "  regather reference room -o out/room-reference --width 128 --height 128 --samples 64\n"
         "  regather reference room -o out/room-reference --width 128 --height 128 --samples 1024\n"
         "  regather reference room -o out/long --seconds 3600");
-    command.action(options, run);
+    command.action(options, make_reference);
 }
 
 }  // namespace regather::cli

@@ -21,7 +21,7 @@
 namespace regather::cli {
 namespace {
 
-struct Options {
+struct ReplayOptions {
     std::filesystem::path trace, csv;
     std::vector<std::string> orders, caches{"128K:128:8"}, layouts;
     std::string onchip = "1M", machines;
@@ -32,7 +32,7 @@ struct Options {
     std::vector<std::uint32_t> queued;
 };
 
-void run(const Options& options, const Console& console) {
+void replay_trace(const ReplayOptions& options, const Console& console) {
     if (!options.csv.empty()) results::refuse_to_overwrite(options.csv, options.force);
     const auto [orderings, reads] = experiment::parse_orderings(options.orders);
     const auto caches = cachesim::parse_caches(options.caches);
@@ -70,7 +70,7 @@ void run(const Options& options, const Console& console) {
 }  // namespace
 
 void add_replay(Command& command) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ReplayOptions>();
     command.argument("trace", options->trace, "the folder of a finished trace").required();
     std::string known;
     for (const reorder::Entry& entry : reorder::catalogue())
@@ -118,7 +118,7 @@ void add_replay(Command& command) {
         "  regather replay out/room/trace --order naive hilbert hilbert:tile=16 --cache 128K:128:8 --csv "
         "rows.csv\n"
         "  regather replay out/room/trace --reorderer ./libmine.so --cache 16K:64:full 1M:64:16");
-    command.action(options, run);
+    command.action(options, replay_trace);
 }
 
 }  // namespace regather::cli

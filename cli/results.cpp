@@ -14,12 +14,12 @@
 namespace regather::cli {
 namespace {
 
-struct Options {
+struct ResultsOptions {
     std::filesystem::path folder;
     std::vector<std::string> scenes;
 };
 
-void run(const Options& options, const Console& console) {
+void list_results(const ResultsOptions& options, const Console& console) {
     const std::vector<study::Result> all = study::find_results(
         options.folder, std::vector<std::filesystem::path>(options.scenes.begin(), options.scenes.end()));
     console.print("{}", results::text_of(study::result_table(all)));
@@ -34,7 +34,7 @@ void run(const Options& options, const Console& console) {
 }  // namespace
 
 void add_results(Command& command) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ResultsOptions>();
     command.argument("folder", options->folder, "where the CSVs lie, or folders with them").required();
     command.list("--scene", options->scenes, "scene files that the rows are of, beside the embedded scenes");
     command.footer(
@@ -42,7 +42,7 @@ void add_results(Command& command) {
         "which is\n"
         "made again. Exit code 1 when one differs or cannot be told.\n"
         "Example:\n  regather results results");
-    command.action(options, run);
+    command.action(options, list_results);
 }
 
 }  // namespace regather::cli

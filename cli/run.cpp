@@ -23,12 +23,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct RunOptions {
     fs::path experiment, folder;
     bool force = false;
 };
 
-experiment::ExperimentResult make(const experiment::Experiment& experiment, const Options& options,
+experiment::ExperimentResult make(const experiment::Experiment& experiment, const RunOptions& options,
                                   const Console& console) {
     const Interruption interruption;
     try {
@@ -49,7 +49,7 @@ experiment::ExperimentResult make(const experiment::Experiment& experiment, cons
     }
 }
 
-void run(const Options& options, const Console& console) {
+void run_experiment(const RunOptions& options, const Console& console) {
     const experiment::Experiment experiment = experiment::load_experiment(options.experiment);
     const experiment::ExperimentResult made = make(experiment, options, console);
     const fs::path csv = options.folder / "rows.csv";
@@ -70,7 +70,7 @@ void run(const Options& options, const Console& console) {
 }  // namespace
 
 void add_run(Command& command) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RunOptions>();
     command.argument("experiment", options->experiment, "a JSON file; see docs/experiments.md").required();
     command.option("-o,--output", options->folder, "folder for everything that is made").required();
     command.flag("--force", options->force, "capture again although the folder holds another capture");
@@ -78,7 +78,7 @@ void add_run(Command& command) {
         "Finished parts in the folder are kept: the same command goes on after SIGINT (Ctrl-C), SIGTERM or a "
         "crash.\n"
         "Example:\n  regather run scenes/experiments/figure4.json -o out/figure4");
-    command.action(options, run);
+    command.action(options, run_experiment);
 }
 
 }  // namespace regather::cli

@@ -17,7 +17,7 @@
 namespace regather::cli {
 namespace {
 
-struct Options {
+struct SamplingOptions {
     std::filesystem::path trace, csv;
     std::vector<std::string> orders{"naive", "hilbert"}, caches{"128K:128:8"};
     std::vector<std::uint32_t> rates{2, 4, 8, 16};
@@ -25,7 +25,7 @@ struct Options {
     bool force = false;
 };
 
-void run(const Options& options, const Console& console) {
+void measure_sampling(const SamplingOptions& options, const Console& console) {
     if (!options.csv.empty()) results::refuse_to_overwrite(options.csv, options.force);
     const experiment::Orderings orderings = experiment::parse_orderings(options.orders);
     const auto caches = cachesim::parse_caches(options.caches);
@@ -41,7 +41,7 @@ void run(const Options& options, const Console& console) {
 }  // namespace
 
 void add_sampling(Command& command) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<SamplingOptions>();
     command.argument("trace", options->trace, "the folder of a finished trace").required();
     command.list("--order,--reorderer", options->orders, "orderings, as for replay");
     command.list("--cache", options->caches, "caches, as for replay");
@@ -53,7 +53,7 @@ void add_sampling(Command& command) {
     command.footer(
         "Example:\n  regather sampling out/room/trace --order naive hilbert --cache 16K,128K:128:1 --rates "
         "2,4,8,16,32 --csv sampling.csv\n  regather chart sampling.csv -o charts");
-    command.action(options, run);
+    command.action(options, measure_sampling);
 }
 
 }  // namespace regather::cli

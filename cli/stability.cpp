@@ -22,13 +22,13 @@
 namespace regather::cli {
 namespace {
 
-struct Options {
+struct StabilityOptions {
     std::vector<std::string> only;
     std::filesystem::path folder;
     bool quick = false, list = false, force = false;
 };
 
-std::vector<const study::CaseGroup*> wanted_groups(const Options& options) {
+std::vector<const study::CaseGroup*> wanted_groups(const StabilityOptions& options) {
     std::vector<const study::CaseGroup*> groups;
     for (const std::string& name : options.only) groups.push_back(&study::case_group(name));
     if (groups.empty())
@@ -42,7 +42,7 @@ trace::Json renderer() {
     return trace::Json::object({{"scene", scene.name}, {"fingerprint", capture::fingerprint(scene)}});
 }
 
-void run(const Options& options, const Console& console) {
+void run_stability(const StabilityOptions& options, const Console& console) {
     const auto groups = wanted_groups(options);
     if (options.list) {
         for (const study::CaseGroup* group : groups) {
@@ -79,7 +79,7 @@ void run(const Options& options, const Console& console) {
 }  // namespace
 
 void add_stability(Command& command) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<StabilityOptions>();
     std::string names;
     for (const study::CaseGroup& group : study::case_groups())
         names += fmt::format("{}{}", names.empty() ? "" : ", ", group.name);
@@ -93,7 +93,7 @@ void add_stability(Command& command) {
     command.footer(
         "Exit code 1 when a case fails. Meaning and bounds of the cases: docs/stability.md\n"
         "Example:\n  regather stability --only leaks,lobes -o out/stability");
-    command.action(options, run);
+    command.action(options, run_stability);
 }
 
 }  // namespace regather::cli

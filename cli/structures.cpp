@@ -11,9 +11,9 @@
 namespace regather::cli {
 namespace {
 
-struct Nothing {};
+struct StructuresOptions {};
 
-void run(const Nothing&, const Console& console) {
+void list_structures(const StructuresOptions&, const Console& console) {
     using results::Align;
     results::Table all({{"structure", Align::left},
                         {"version", Align::right},
@@ -41,7 +41,7 @@ void add_structures(Command& command) {
         "Examples:\n  regather structures          # their names, for:\n  regather walk out/room/trace "
         "--structure median-kd:leaf=8 -o out/room-median\n"
         "  regather walk out/room/trace --rays gather --structure bvh-4 -o out/room-gather-rays");
-    command.action(std::make_shared<Nothing>(), run);
+    command.action(std::make_shared<StructuresOptions>(), list_structures);
 }
 
 }  // namespace regather::cli

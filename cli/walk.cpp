@@ -19,7 +19,7 @@
 namespace regather::cli {
 namespace {
 
-struct Options {
+struct WalkOptions {
     experiment::TraceJob job;
     std::string structure, rays, scene;
     std::optional<std::uint32_t> k, width;
@@ -27,13 +27,13 @@ struct Options {
     bool allow_overlaps = false;
 };
 
-void refuse_candidates(const Options& options, std::string_view found) {
+void refuse_candidates(const WalkOptions& options, std::string_view found) {
     if (options.job.candidates)
         throw trace::UsageError(
             fmt::format("--candidates: found {}, expected photons that are searched for", found));
 }
 
-void refuse_overlaps(const Options& options) {
+void refuse_overlaps(const WalkOptions& options) {
     if (options.allow_overlaps)
         throw trace::UsageError(
             fmt::format("--allow-overlaps: found {} without visit_element.npy, expected "
@@ -42,7 +42,7 @@ void refuse_overlaps(const Options& options) {
 }
 
 /// The folder is a finished trace.
-experiment::StructureJob again(const Options& options) {
+experiment::StructureJob again(const WalkOptions& options) {
     if (options.k || options.width || options.radius)
         throw trace::UsageError(
             fmt::format("{}: found a finished trace, whose k, radius and width are its own, expected no --k, "
@@ -56,7 +56,7 @@ experiment::StructureJob again(const Options& options) {
             .force = options.job.force};
 }
 
-experiment::VisitsJob of_visits(const Options& options) {
+experiment::VisitsJob of_visits(const WalkOptions& options) {
     refuse_candidates(options, "visits that are brought");
     if (options.k || options.radius || !options.structure.empty())
         throw trace::UsageError(
@@ -70,7 +70,7 @@ experiment::VisitsJob of_visits(const Options& options) {
             .force = options.job.force};
 }
 
-experiment::RayJob of_rays(const Options& options) {
+experiment::RayJob of_rays(const WalkOptions& options) {
     refuse_overlaps(options);
     refuse_candidates(options, "--rays");
     if (options.k || options.width || options.radius)
@@ -84,7 +84,7 @@ experiment::RayJob of_rays(const Options& options) {
     return job;
 }
 
-experiment::TraceJob of_columns(const Options& options) {
+experiment::TraceJob of_columns(const WalkOptions& options) {
     refuse_overlaps(options);
     experiment::TraceJob job = options.job;
     if (!options.structure.empty()) job.structure = options.structure;
@@ -94,7 +94,7 @@ experiment::TraceJob of_columns(const Options& options) {
     return job;
 }
 
-std::string report(const Options& options, const experiment::ProgressListener& progress) {
+std::string report(const WalkOptions& options, const experiment::ProgressListener& progress) {
     if (!options.rays.empty()) return experiment::run(of_rays(options), progress);
     if (!options.scene.empty())
         throw trace::UsageError("--scene: found no --rays, whose triangles it gives, expected both or none");
@@ -109,7 +109,7 @@ std::string report(const Options& options, const experiment::ProgressListener& p
                                                           : experiment::run(of_columns(options), progress);
 }
 
-void run(const Options& options, const Console& console) {
+void make_walks(const WalkOptions& options, const Console& console) {
     std::string text;
     {
         Progress progress(console);
@@ -121,7 +121,7 @@ void run(const Options& options, const Console& console) {
 }  // namespace
 
 void add_walk(Command& command) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<WalkOptions>();
     experiment::TraceJob& job = options->job;
     command
         .argument(
@@ -157,7 +157,7 @@ void add_walk(Command& command) {
         "  regather walk my_columns -o out/mine --k 50 --width 640\n"
         "  regather walk out/room/trace --structure median-kd:leaf=8 -o out/room-median\n"
         "  regather walk out/room/trace --rays gather --structure bvh-4 -o out/room-gather-rays");
-    command.action(options, run);
+    command.action(options, make_walks);
 }
 
 }  // namespace regather::cli

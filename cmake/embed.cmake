@@ -28,6 +28,6 @@ function(regather_embed target namespace)
                 -DSTEM=${stem} -P ${regather_embed_script}
             DEPENDS ${file} ${regather_embed_script} VERBATIM)
         target_sources(${target} PRIVATE ${output})
-        set_source_files_properties(${output} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+        set_source_files_properties(${output} PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
     endforeach()
 endfunction()

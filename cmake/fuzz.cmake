@@ -1,6 +1,6 @@
 # fuzz.cmake -- fuzz targets of the readers (libFuzzer of clang), built with -D REGATHER_FUZZ=ON.
 # regather_fuzz(NAME NEEDS TARGET...): the program fuzz_NAME of tests/fuzz/NAME_fuzz.cpp and the test fuzz.NAME, which begins with
-# the inputs in tests/fuzz/corpus/NAME and runs for REGATHER_FUZZ_SECONDS (3 when the environment says nothing).
+# the inputs in tests/fuzz/corpus/NAME and runs for REGATHER_FUZZ_SECONDS (2 when the environment says nothing).
 function(regather_fuzz name)
     if(NOT REGATHER_FUZZ)
         return()

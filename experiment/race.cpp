@@ -62,13 +62,13 @@ struct Run {
     std::uint32_t threads;
 };
 
-struct Searched {
+struct SearchRun {
     double seconds;
     std::uint64_t found_photons;
 };
 
 template <class Searcher>
-Searched search_all(const Searcher& prototype, const Run& run) {
+SearchRun search_all(const Searcher& prototype, const Run& run) {
     std::atomic<std::size_t> next = 0;
     std::atomic<std::uint64_t> found_photons = 0;
     const std::size_t queries = run.order.size();
@@ -179,7 +179,7 @@ Race race(std::span<const trace::Photon> heap, const reorder::Workload& work,
             order_seconds[i].push_back(seconds);
             for (std::size_t s = 0; s < kinds; ++s) {
                 run.slots = agreement.slots();
-                const Searched searched =
+                const SearchRun searched =
                     config.structures[s] == Structure::bucketed
                         ? search_all(BucketedSearcher{&buckets, spatial::Candidates(k, config.radius)}, run)
                         : search_all(LeftBalancedSearcher{spatial::PhotonKd(heap),

@@ -19,13 +19,13 @@ namespace {
 
 using trace::Vec3;
 
-constexpr std::array<std::string_view, 1> known_columns{"photon_position"};
+constexpr std::array<std::string_view, 1> search_columns{"photon_position"};
 
 }  // namespace
 
 std::string run(const TraceJob& job, const ProgressListener& progress) {
     const spatial::StructureSpec spec = spatial::parse_structure(job.structure);
-    refuse_unknown_columns(job.columns, known_columns);
+    refuse_unknown_columns(job.columns, search_columns);
     const trace::MappedColumn photon_positions(job.columns / "photon_position.npy",
                                                trace::column_type<Vec3>());
     const BroughtQueries brought(job.columns);

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 7> known_columns{"visit_element",   "query_visits",   "element_bytes",
+constexpr std::array<std::string_view, 7> visit_columns{"visit_element",   "query_visits",   "element_bytes",
                                                         "element_address", "element_region", "element_level",
                                                         "element_parent"};
 constexpr std::uint64_t most_visits = (std::uint64_t{1} << 29) - 1;  // so that a walk's bytes fit 32 bits
@@ -151,7 +151,7 @@ std::string run(const VisitsJob& job, const ProgressListener& progress) {
             fmt::format("{}: found photon_position.npy beside visit_element.npy, expected "
                         "photons to search or visits of a search",
                         job.columns.string()));
-    refuse_unknown_columns(job.columns, known_columns);
+    refuse_unknown_columns(job.columns, visit_columns);
     if (job.allow_overlaps && !fs::exists(file_of(job.columns, "element_address"), error))
         throw trace::UsageError(
             fmt::format("--allow-overlaps: found {} without element_address.npy, expected addresses at which "

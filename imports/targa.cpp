@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "imports/texture.h"
 #include "trace/error.h"
 
 namespace regather::imports {
@@ -15,10 +16,6 @@ using Kind = Targa::Kind;
 
 constexpr std::size_t header_bytes = 18;
 
-trace::DataError refusal(const std::string& name, std::string_view found, std::string_view expected) {
-    return trace::DataError(fmt::format("{}: found {}, expected {}", name, found, expected));
-}
-
 /// Bytes, one piece after the other.
 class Source {
 public:
@@ -26,8 +23,9 @@ public:
 
     std::span<const std::uint8_t> take(std::size_t count) {
         if (count > bytes_.size())
-            throw refusal(name_, fmt::format("{} bytes before the end of the Targa data", bytes_.size()),
-                          fmt::format("{} at least", count));
+            throw refused_image(name_,
+                                fmt::format("{} bytes before the end of the Targa data", bytes_.size()),
+                                fmt::format("{} at least", count));
         const auto piece = bytes_.first(count);
         bytes_ = bytes_.subspan(count);
         return piece;
@@ -74,7 +72,7 @@ Texel colour(std::span<const std::uint8_t> in, bool has_alpha_bit) {
 
 Targa targa_header(std::span<const std::uint8_t> bytes, const std::string& name) {
     if (bytes.size() < header_bytes)
-        throw refusal(name, fmt::format("{} bytes", bytes.size()), "the 18 of a Targa header and more");
+        throw refused_image(name, fmt::format("{} bytes", bytes.size()), "the 18 of a Targa header and more");
     Source source(bytes.first(header_bytes), name);
     Targa header;
     header.name_bytes = source.number(1);
@@ -91,22 +89,23 @@ Targa targa_header(std::span<const std::uint8_t> bytes, const std::string& name)
 
     const std::uint32_t kind = type & ~8u;
     if (kind < 1 || kind > 3)
-        throw refusal(name, fmt::format("Targa image type {}", type), "1, 2, 3, 9, 10 or 11");
+        throw refused_image(name, fmt::format("Targa image type {}", type), "1, 2, 3, 9, 10 or 11");
     header.kind = static_cast<Kind>(kind);
     header.is_run_length = (type & 8) != 0;
     if (has_palette > 1 || (header.kind == Kind::palette && has_palette == 0))
-        throw refusal(name, fmt::format("Targa palette type {} in an image of type {}", has_palette, type),
-                      header.kind == Kind::palette ? "1" : "0 or 1");
+        throw refused_image(name,
+                            fmt::format("Targa palette type {} in an image of type {}", has_palette, type),
+                            header.kind == Kind::palette ? "1" : "0 or 1");
     if (has_palette == 0) header.palette_entries = header.palette_bits = 0;
     if (has_palette == 1 && !is_colour(header.palette_bits))
-        throw refusal(name, fmt::format("a Targa palette of {} bits an entry", header.palette_bits),
-                      "15, 16, 24 or 32");
+        throw refused_image(name, fmt::format("a Targa palette of {} bits an entry", header.palette_bits),
+                            "15, 16, 24 or 32");
     if (header.kind == Kind::colour ? !is_colour(header.texel_bits) : header.texel_bits != 8)
-        throw refusal(name,
-                      fmt::format("{} bits a texel in a Targa image of type {}", header.texel_bits, type),
-                      header.kind == Kind::colour ? "15, 16, 24 or 32" : "8");
+        throw refused_image(
+            name, fmt::format("{} bits a texel in a Targa image of type {}", header.texel_bits, type),
+            header.kind == Kind::colour ? "15, 16, 24 or 32" : "8");
     if (descriptor >> 6 != 0)
-        throw refusal(name, "a Targa image with interleaved rows", "rows one after the other");
+        throw refused_image(name, "a Targa image with interleaved rows", "rows one after the other");
     return header;
 }
 
@@ -122,8 +121,8 @@ void read_targa(std::span<const std::uint8_t> bytes, const Targa& header, std::s
         if (header.kind == Kind::grey) return {in[0], in[0], in[0], 255};
         const std::uint32_t entry = in[0] - header.palette_first;
         if (in[0] < header.palette_first || entry >= palette.size())
-            throw refusal(name, fmt::format("colour {} of a Targa palette", in[0]),
-                          fmt::format("{} entries from {}", palette.size(), header.palette_first));
+            throw refused_image(name, fmt::format("colour {} of a Targa palette", in[0]),
+                                fmt::format("{} entries from {}", palette.size(), header.palette_first));
         return palette[entry];
     };
     for (std::size_t at = 0; at < texels.size();) {
@@ -134,7 +133,7 @@ void read_targa(std::span<const std::uint8_t> bytes, const Targa& header, std::s
         const std::uint32_t packet = source.number(1);
         const std::size_t count = (packet & 127) + 1;
         if (count > texels.size() - at)
-            throw refusal(
+            throw refused_image(
                 name, fmt::format("a Targa run of {} texels where {} are left", count, texels.size() - at),
                 "no more than are left");
         const bool is_run = (packet & 128) != 0;

@@ -4,7 +4,10 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "trace/error.h"
 
 namespace regather::imports {
 
@@ -20,5 +23,8 @@ inline constexpr std::uint32_t most_texture_edge = 8192;  ///< Texels.
 /// for the file in errors. Throws trace::DataError for a damaged image, another format, or more than 8192 x
 /// 8192 texels.
 Texture read_texture(std::span<const std::uint8_t> bytes, const std::string& name);
+
+/// What is said of an image that is not read: "NAME: found FOUND, expected EXPECTED".
+trace::DataError refused_image(const std::string& name, std::string_view found, std::string_view expected);
 
 }  // namespace regather::imports

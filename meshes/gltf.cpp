@@ -26,9 +26,9 @@ namespace {
 constexpr std::uint32_t none = ~0u;
 enum Mode : std::uint32_t { points = 0, line_strip = 3, list_of_triangles = 4, strip = 5, fan = 6 };
 
-class Reader {
+class GltfReader {
 public:
-    explicit Reader(const Source& source) : file_(source, notes_), accessors_(file_) {}
+    explicit GltfReader(const Source& source) : file_(source, notes_), accessors_(file_) {}
 
     Mesh read() {
         mesh_.materials = read_gltf_materials(file_, notes_);
@@ -290,7 +290,7 @@ private:
 }  // namespace
 
 Mesh read_gltf(const Source& source) {
-    return Reader(source).read();
+    return GltfReader(source).read();
 }
 
 }  // namespace regather::meshes

@@ -30,9 +30,9 @@ constexpr std::array<std::string_view, 19> free_form{
     "vp",   "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim",
     "hole", "scrv",   "sp",  "end",  "con",  "bzp",  "bsp",   "cdc",  "cdp"};
 
-class Reader {
+class ObjReader {
 public:
-    explicit Reader(const Source& source) : source_(source), line_(source.bytes, source.file) {}
+    explicit ObjReader(const Source& source) : source_(source), line_(source.bytes, source.file) {}
 
     Mesh read() {
         while (line_.next()) read_line(line_.keyword());
@@ -326,7 +326,7 @@ private:
 }  // namespace
 
 Mesh read_obj(const Source& source) {
-    return Reader(source).read();
+    return ObjReader(source).read();
 }
 
 }  // namespace regather::meshes

@@ -24,9 +24,9 @@ bool names_vertices(const PlyProperty& property) {
     return property.name == "vertex_indices" || property.name == "vertex_index";
 }
 
-class Reader {
+class PlyReader {
 public:
-    explicit Reader(const Source& source)
+    explicit PlyReader(const Source& source)
         : source_(source),
           header_(read_ply_header(source.bytes, source.file)),
           body_(source.bytes, header_) {}
@@ -300,7 +300,7 @@ private:
 }  // namespace
 
 Mesh read_ply(const Source& source) {
-    return Reader(source).read();
+    return PlyReader(source).read();
 }
 
 }  // namespace regather::meshes

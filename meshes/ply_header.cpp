@@ -24,7 +24,7 @@ constexpr std::array types{PlyType{"char", "int8", 1, PlyType::whole_signed},
                            PlyType{"float", "float32", 4, PlyType::real},
                            PlyType{"double", "float64", 8, PlyType::real}};
 constexpr std::string_view type_names = "char, uchar, short, ushort, int, uint, float or double";
-constexpr std::size_t most_names = 1000;  // Of elements, and of properties of one.
+constexpr std::size_t most_members = 1000;  // Of elements, and of properties of one.
 
 std::string_view next_word(std::string_view& line) {
     constexpr std::string_view blanks = " \t\r\v\f";
@@ -118,8 +118,8 @@ private:
         must_end();
         for (const PlyElement& other : header_.elements)
             if (other.name == element.name) fail("a second element " + in_quotes(element.name), "one");
-        if (header_.elements.size() == most_names)
-            fail(fmt::format("more than {} elements", most_names), "at most as many");
+        if (header_.elements.size() == most_members)
+            fail(fmt::format("more than {} elements", most_members), "at most as many");
         header_.elements.push_back(std::move(element));
     }
 
@@ -150,8 +150,8 @@ private:
         for (const PlyProperty& other : properties)
             if (other.name == property.name)
                 fail("a second property " + in_quotes(property.name), "one in an element");
-        if (properties.size() == most_names)
-            fail(fmt::format("more than {} properties of an element", most_names), "at most as many");
+        if (properties.size() == most_members)
+            fail(fmt::format("more than {} properties of an element", most_members), "at most as many");
         properties.push_back(std::move(property));
     }
 

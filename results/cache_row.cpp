@@ -3,7 +3,7 @@
 namespace regather::results {
 namespace {
 
-constexpr Column columns[] = {
+constexpr Column cache_columns[] = {
     column<&CacheRow::policy>("policy", needed),
     column<&CacheRow::size_bytes>("size_bytes", needed),
     column<&CacheRow::line_bytes>("line_bytes", needed),
@@ -26,7 +26,7 @@ constexpr Column columns[] = {
 }  // namespace
 
 const RowKind& CacheRow::kind() {
-    static constexpr RowKind kind{"cache", columns};
+    static constexpr RowKind kind{"cache", cache_columns};
     return kind;
 }
 

@@ -16,6 +16,11 @@ using Signed = std::optional<std::int64_t>;
 using Flag = std::optional<bool>;
 using Number = std::optional<double>;
 
+/// What a row has, for arithmetic.
+inline double number(const Count& count) {
+    return static_cast<double>(count.value());
+}
+
 /// What a cell says. An empty one is a value that does not apply.
 enum class Form {
     text,

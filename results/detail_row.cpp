@@ -3,7 +3,7 @@
 namespace regather::results {
 namespace {
 
-constexpr Column columns[] = {
+constexpr Column detail_columns[] = {
     column<&DetailRow::scene>("scene"),
     column<&DetailRow::ordering>("ordering", Form::name, needed),
     column<&DetailRow::tile>("tile"),
@@ -28,7 +28,7 @@ constexpr Column columns[] = {
 }  // namespace
 
 const RowKind& DetailRow::kind() {
-    static constexpr RowKind kind{"detail", columns};
+    static constexpr RowKind kind{"detail", detail_columns};
     return kind;
 }
 

@@ -15,7 +15,7 @@ constexpr Column of_machine(std::string_view name, bool is_needed = false) {
     return column<field, FrameRow>(name, is_needed);
 }
 
-constexpr auto columns = with_machine_counts<FrameRow>(std::array{
+constexpr auto frame_columns = with_machine_counts<FrameRow>(std::array{
     of_machine<&FrameRow::scene>("scene"),
     column<&FrameRow::frame>("frame"),
     column<&FrameRow::unit>("unit", needed),
@@ -39,7 +39,7 @@ std::string difference(std::uint64_t together_bytes, std::uint64_t apart_bytes) 
 }  // namespace
 
 const RowKind& FrameRow::kind() {
-    static constexpr RowKind kind{"frame", columns};
+    static constexpr RowKind kind{"frame", frame_columns};
     return kind;
 }
 

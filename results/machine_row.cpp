@@ -7,7 +7,7 @@
 namespace regather::results {
 namespace {
 
-constexpr auto columns = with_machine_counts<MachineRow>(std::array{
+constexpr auto machine_columns = with_machine_counts<MachineRow>(std::array{
     column<&MachineRow::scene>("scene"),
     column<&MachineRow::structure>("structure"),
     column<&MachineRow::layout>("layout"),
@@ -21,7 +21,7 @@ constexpr auto columns = with_machine_counts<MachineRow>(std::array{
 }  // namespace
 
 const RowKind& MachineRow::kind() {
-    static constexpr RowKind kind{"machine", columns};
+    static constexpr RowKind kind{"machine", machine_columns};
     return kind;
 }
 

@@ -5,7 +5,7 @@
 namespace regather::results {
 namespace {
 
-constexpr Column columns[] = {
+constexpr Column race_columns[] = {
     column<&RaceRow::scene>("scene"),
     column<&RaceRow::structure>("structure", needed),
     column<&RaceRow::ordering>("ordering", Form::name, needed),
@@ -30,7 +30,7 @@ constexpr Column columns[] = {
 }  // namespace
 
 const RowKind& RaceRow::kind() {
-    static constexpr RowKind kind{"race", columns};
+    static constexpr RowKind kind{"race", race_columns};
     return kind;
 }
 

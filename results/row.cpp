@@ -3,7 +3,7 @@
 namespace regather::results {
 namespace {
 
-constexpr Column columns[] = {
+constexpr Column measurement_columns[] = {
     column<&Row::scene>("scene"),
     column<&Row::frame>("frame"),
     column<&Row::ordering>("ordering", Form::name, needed),
@@ -50,7 +50,7 @@ constexpr Column columns[] = {
 }  // namespace
 
 const RowKind& Row::kind() {
-    static constexpr RowKind kind{"measurement", columns};
+    static constexpr RowKind kind{"measurement", measurement_columns};
     return kind;
 }
 

@@ -3,7 +3,7 @@
 namespace regather::results {
 namespace {
 
-constexpr Column columns[] = {
+constexpr Column sampling_columns[] = {
     column<&SamplingRow::scene>("scene"),
     column<&SamplingRow::ordering>("ordering", Form::name, needed),
     column<&SamplingRow::parameters>("parameters"),
@@ -25,7 +25,7 @@ constexpr Column columns[] = {
 }  // namespace
 
 const RowKind& SamplingRow::kind() {
-    static constexpr RowKind kind{"sampling", columns};
+    static constexpr RowKind kind{"sampling", sampling_columns};
     return kind;
 }
 

@@ -5,7 +5,7 @@
 namespace regather::results {
 namespace {
 
-constexpr Column columns[] = {
+constexpr Column stability_columns[] = {
     column<&StabilityRow::group>("group", needed),
     column<&StabilityRow::stability_case>("case", needed),
     column<&StabilityRow::quantity>("quantity"),
@@ -23,7 +23,7 @@ std::string number(const Number& value) {
 }  // namespace
 
 const RowKind& StabilityRow::kind() {
-    static constexpr RowKind kind{"stability", columns};
+    static constexpr RowKind kind{"stability", stability_columns};
     return kind;
 }
 

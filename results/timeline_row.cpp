@@ -3,7 +3,7 @@
 namespace regather::results {
 namespace {
 
-constexpr Column columns[] = {
+constexpr Column timeline_columns[] = {
     column<&TimelineRow::scene>("scene"),
     column<&TimelineRow::ordering>("ordering", Form::name, needed),
     column<&TimelineRow::tile>("tile"),
@@ -22,7 +22,7 @@ constexpr Column columns[] = {
 }  // namespace
 
 const RowKind& TimelineRow::kind() {
-    static constexpr RowKind kind{"timeline", columns};
+    static constexpr RowKind kind{"timeline", timeline_columns};
     return kind;
 }
 

@@ -2,6 +2,7 @@
 // against. docs/scene_format.md explains the same keys to people.
 #pragma once
 #include <span>
+#include <string_view>
 
 #include "trace/field.h"
 
@@ -19,5 +20,10 @@ std::span<const Kind> light_kinds();
 std::span<const Kind> shape_kinds();
 /// Told apart by their key "kind": diffuse, glossy, mirror, dielectric.
 std::span<const Kind> material_kinds();
+
+/// What a key's value has to be, for errors.
+inline std::string_view expected(const Kind& kind, std::string_view key) {
+    return kind.key(key).expected;
+}
 
 }  // namespace regather::scenes

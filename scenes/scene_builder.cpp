@@ -28,10 +28,6 @@ constexpr double least_sine = 1e-4;  // Of the angle between view and up.
 constexpr std::size_t most_text = 2000;
 constexpr std::uint32_t most_frames = 1'000'000;
 
-std::string_view expected(const Kind& kind, std::string_view key) {
-    return kind.key(key).expected;
-}
-
 /// y becomes z (where `y_is_up`), then scale, turn about the z axis, move.
 struct Placement {
     bool y_is_up = false;

@@ -8,10 +8,6 @@ namespace {
 
 constexpr std::uint32_t most_cells = 10'000, most_segments = 4096, most_ripple_cells = 4096;
 
-std::string_view expected(const Kind& kind, std::string_view key) {
-    return kind.key(key).expected;
-}
-
 std::uint32_t read_segments(const Field& node, const Kind& kind, std::string_view key = "segments") {
     return node[key].whole(3, most_segments, expected(kind, key));
 }

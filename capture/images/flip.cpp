@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 #include "capture/images/image_error.h"
 #include "trace/median.h"
@@ -13,7 +14,7 @@
 namespace regather::capture {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr double colour_exponent = 0.7, feature_exponent = 0.5, p_c = 0.4, p_t = 0.95, detector_width = 0.082;
 
 using Colour = std::array<double, 3>;

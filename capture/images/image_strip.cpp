@@ -13,18 +13,18 @@ namespace regather::capture {
 namespace {
 
 namespace fs = std::filesystem;
-using Rgb = std::array<std::uint8_t, 3>;
+using Rgb8 = std::array<std::uint8_t, 3>;
 
 constexpr std::uint32_t least_panel = 256, margin = 10, letter_size = 13, letter_height = 16, text_gap = 6,
                         bar_width = 16, tick = 5, bar_text = 60;
-constexpr Rgb paper{255, 255, 255}, ink{32, 32, 32};
+constexpr Rgb8 paper{255, 255, 255}, ink{32, 32, 32};
 
 class Canvas {
 public:
     Canvas(std::uint32_t width, std::uint32_t height)
-        : picture_{width, height, std::vector<Rgb>(std::size_t{width} * height, paper)} {}
+        : picture_{width, height, std::vector<Rgb8>(std::size_t{width} * height, paper)} {}
 
-    void fill(std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height, Rgb colour) {
+    void fill(std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height, Rgb8 colour) {
         for (std::uint32_t j = y; j < std::min(y + height, picture_.height); ++j)
             for (std::uint32_t i = x; i < std::min(x + width, picture_.width); ++i)
                 picture_.pixels[std::size_t{j} * picture_.width + i] = colour;
@@ -34,7 +34,7 @@ public:
         for (std::uint32_t j = 0; j < std::min(line.height, picture_.height - y); ++j)
             for (std::uint32_t i = 0; i < std::min(line.width, picture_.width - x); ++i) {
                 const unsigned covered = line.ink[std::size_t{j} * line.width + i];
-                Rgb& pixel = picture_.pixels[std::size_t{y + j} * picture_.width + x + i];
+                Rgb8& pixel = picture_.pixels[std::size_t{y + j} * picture_.width + x + i];
                 for (std::size_t c = 0; c < 3; ++c)
                     pixel[c] = static_cast<std::uint8_t>(
                         (pixel[c] * (255 - covered) + ink[c] * covered + 127) / 255);
@@ -82,12 +82,12 @@ float error_range(const std::vector<float>& errors) {
     return static_cast<float>(10 * decade);
 }
 
-Rgb false_colour(float error, float range) {
+Rgb8 false_colour(float error, float range) {
     // Blue and red of one lightness, both safe for colour-blind readers; between them and white straight
     // lines.
     constexpr std::array<float, 3> cold{33, 102, 172}, warm{178, 24, 43}, none{255, 255, 255};
     const float t = std::clamp(error / range, -1.0f, 1.0f), size = std::abs(t);
-    Rgb out{};
+    Rgb8 out{};
     for (std::size_t c = 0; c < 3; ++c)
         out[c] = static_cast<std::uint8_t>(none[c] + ((t < 0 ? cold : warm)[c] - none[c]) * size + 0.5f);
     return out;

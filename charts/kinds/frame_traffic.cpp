@@ -20,7 +20,7 @@ struct Look {
 constexpr Look looks[] = {{"#56b4e9", "#000000"}, {"#000000", "#ffffff"}, {"#009e73", "#ffffff"},
                           {"#e69f00", "#000000"}, {"#0072b2", "#ffffff"}, {"#cc79a7", "#000000"}};
 constexpr double bar_pixels = 38;  // a bar's name stands above it
-constexpr double name_width = 330;
+constexpr double phase_width = 330;
 
 /// One run through one machine.
 struct Bar {
@@ -111,7 +111,7 @@ Chart frame_traffic(const ChartKind& kind, const results::Rows& rows, const Char
         if (machines) name.push_back(of.machine);
         name.insert(name.end(), {of.unit, of.run});
         if (orderings) name.push_back(joined(bars[b].orderings));
-        panel.notes.push_back({0, base + 0.76, fitting(joined(name), 11, name_width)});
+        panel.notes.push_back({0, base + 0.76, fitting(joined(name), 11, phase_width)});
         panel.notes.push_back(
             {across.high, base + 0.76, results::decimal_bytes(static_cast<std::uint64_t>(from)), true});
     }

@@ -24,7 +24,7 @@ constexpr Class classes[] = {
     {"conflict: full associativity would hit", &results::Row::conflict, "#e69f00", "#000000"},
 };
 constexpr double line_pixels = 38;  // a bar's name stands above it
-constexpr double name_width = 290;
+constexpr double label_width = 290;
 
 bool classed(const results::Row& row) {
     return row.compulsory && row.capacity && row.conflict && row.misses;
@@ -61,7 +61,7 @@ Chart misses_by_class(const ChartKind& kind, const results::Rows& rows, const Ch
     for (std::size_t c = 0; c < shown.size(); ++c) {
         const results::Row& row = *shown[c].rows.front();
         const double sum = sum_of(row), base = static_cast<double>(shown.size() - 1 - c);
-        panel.notes.push_back({0, base + 0.76, charts::fitting(shown[c].label, 11, name_width)});
+        panel.notes.push_back({0, base + 0.76, charts::fitting(shown[c].label, 11, label_width)});
         panel.notes.push_back(
             {100, base + 0.76, results::decimal_count(static_cast<double>(*row.misses)) + " misses", true});
         double from = 0;

@@ -12,10 +12,6 @@ namespace {
 
 constexpr std::size_t most_markers = 16;
 
-double number(const results::Count& count) {
-    return static_cast<double>(*count);
-}
-
 }  // namespace
 
 Chart timeline(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options) {
@@ -36,13 +32,13 @@ Chart timeline(const ChartKind& kind, const results::Rows& rows, const ChartOpti
     std::string silent;
     for (const auto& subject : shown.all) {
         const results::TimelineRow& last = *subject.rows.back();
-        const double total = number(last.first_query) + number(last.queries);
+        const double total = results::number(last.first_query) + results::number(last.queries);
         Line line = line_of(subject.curve);
         line.every = 1 + (subject.rows.size() - 1) / most_markers;
         bool any = false;
         for (const results::TimelineRow* row : subject.rows) {
-            const double per_query = number(row->misses) / number(row->queries);
-            const double middle = number(row->first_query) + number(row->queries) / 2;
+            const double per_query = results::number(row->misses) / results::number(row->queries);
+            const double middle = results::number(row->first_query) + results::number(row->queries) / 2;
             any |= per_query > 0;
             if (per_query > 0) heights.push_back(per_query);
             // A log axis has no 0: the curve breaks off.

@@ -11,10 +11,6 @@
 namespace regather::charts {
 namespace {
 
-double number(const results::Count& count) {
-    return static_cast<double>(*count);
-}
-
 /// Of all regions.
 struct Level {
     double traffic = 0, used = 0;
@@ -22,8 +18,8 @@ struct Level {
 std::map<double, Level> levels_of(const std::vector<const results::DetailRow*>& rows) {
     std::map<double, Level> levels;
     for (const results::DetailRow* row : rows) {
-        Level& level = levels[number(row->tree_depth)];
-        level.traffic += number(row->traffic_bytes);
+        Level& level = levels[results::number(row->tree_depth)];
+        level.traffic += results::number(row->traffic_bytes);
         level.used += static_cast<double>(row->used_bytes.value_or(0));
     }
     return levels;

@@ -13,7 +13,7 @@ namespace regather::charts {
 namespace {
 
 constexpr double line_pixels = 36;  // of a structure and its layout, whose names stand above the marks
-constexpr double name_width = 400;
+constexpr double place_width = 400;
 constexpr double marks_at = 0.3, floor_from = 0.1, floor_to = 0.5;  // of a line's height
 
 /// Marks have no lines whose dashes tell an ordering's curves apart: every second one's is hollow.
@@ -86,7 +86,7 @@ Chart traffic_by_layout(const ChartKind& kind, const results::Rows& rows, const 
     for (std::size_t p = 0; p < places.size(); ++p)
         panel.notes.push_back(
             {across.low, static_cast<double>(places.size() - 1 - p) + 0.72,
-             fitting(fmt::format("{}, {}", places[p].structure, places[p].layout), 11, name_width)});
+             fitting(fmt::format("{}, {}", places[p].structure, places[p].layout), 11, place_width)});
     std::string text = results::geometry_text(cache);
     return draw({std::string(kind.title),
                  caption(every, "") + " · " + text.insert(text.find(','), " cache"),

@@ -27,9 +27,9 @@ double radians(const Element& e, const char* field, std::optional<double> otherw
     return e.number(field, -most_radians, most_radians, otherwise);
 }
 
-class Reader {
+class HomeReader {
 public:
-    explicit Reader(const XmlDocument& document) : document_(document) {}
+    explicit HomeReader(const XmlDocument& document) : document_(document) {}
 
     Home read() {
         const Element home = document_.root();
@@ -239,7 +239,7 @@ private:
 
 Home read_home(std::span<const std::uint8_t> xml, const std::string& file) {
     const XmlDocument document(xml, file, "home");
-    return Reader(document).read();
+    return HomeReader(document).read();
 }
 
 }  // namespace regather::imports

@@ -108,9 +108,9 @@ private:
     std::size_t number_;
 };
 
-class Reader {
+class BspReader {
 public:
-    Reader(std::span<const std::uint8_t> bytes, std::string_view file) : bytes_(bytes), file_(file) {
+    BspReader(std::span<const std::uint8_t> bytes, std::string_view file) : bytes_(bytes), file_(file) {
         if (bytes.size() < header_bytes)
             refuse("header", fmt::format("{} bytes", bytes.size()), fmt::format("{} or more", header_bytes));
         if (std::memcmp(bytes.data(), "IBSP", 4) != 0)
@@ -209,7 +209,7 @@ BspFace face(const Record& record, const Bsp& bsp) {
     return result;
 }
 
-std::vector<BspNode> nodes(const Reader& reader, const Bsp& bsp) {
+std::vector<BspNode> nodes(const BspReader& reader, const Bsp& bsp) {
     const std::size_t count = reader.count(nodes_lump);
     std::vector<bool> has_parent(count, false);
     std::size_t number = 0;
@@ -242,7 +242,7 @@ std::string_view BspEntity::value(std::string_view key) const {
 }
 
 Bsp read_bsp(std::span<const std::uint8_t> bytes, std::string_view name) {
-    const Reader reader(bytes, name);
+    const BspReader reader(bytes, name);
     Bsp bsp;
     const auto text = reader.lump(entities_lump);
     if (text.size() > most_entity_bytes)

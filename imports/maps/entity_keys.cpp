@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cmath>
 #include <string_view>
 
 #include "imports/maps/tour.h"
@@ -20,6 +22,17 @@ std::string_view used_keys(std::string_view entity_class) {
 }
 
 }  // namespace
+
+std::optional<trace::Vec3> triple_in(std::string_view text) {
+    trace::Vec3 result;
+    for (int axis = 0; axis < 3; ++axis) {
+        while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result[axis]);
+        if (error != std::errc{} || !(std::abs(result[axis]) <= 1e6f)) return std::nullopt;
+        text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    }
+    return result;
+}
 
 void count_left_out(std::span<const BspEntity> entities, LeftOut& left_out) {
     for (const BspEntity& entity : entities) {

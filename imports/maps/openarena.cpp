@@ -143,18 +143,6 @@ std::uint64_t triangle_count(const BspFace& face, std::uint32_t subdivision) {
     return face.index_count / 3;
 }
 
-// From three numbers with blanks between, e.g. an origin.
-std::optional<Vec3> triple_in(std::string_view text) {
-    Vec3 result;
-    for (int axis = 0; axis < 3; ++axis) {
-        while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result[axis]);
-        if (error != std::errc{} || !(std::abs(result[axis]) <= 1e6f)) return std::nullopt;
-        text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-    }
-    return result;
-}
-
 // Where moving parts stand: their model's coordinates are about the entity's origin.
 std::vector<Vec3> model_origins(const Bsp& bsp) {
     std::vector<Vec3> origins(bsp.models.size());

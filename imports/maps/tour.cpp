@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "imports/maps/entity_keys.h"
 #include "scenes/camera_path.h"
 
 namespace regather::imports {
@@ -20,19 +21,6 @@ constexpr float eye_height = 50, body = 12, camera_body = 3;  // A player is 56 
 constexpr std::size_t most_stops = 200, most_neighbours = 12;
 constexpr float longest_step = 1500, units_a_frame = 8, look_ahead = 128;
 constexpr std::uint32_t fewest_frames = 31;
-
-std::optional<Vec3> triple_in(std::string_view text) {
-    Vec3 result;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    for (int axis = 0; axis < 3; ++axis) {
-        while (at != end && (*at == ' ' || *at == '\t')) ++at;
-        const auto [next, error] = std::from_chars(at, end, result[axis]);
-        if (error != std::errc{} || !(std::abs(result[axis]) <= 1e6f)) return std::nullopt;
-        at = next;
-    }
-    return result;
-}
 
 Vec3 heading(float degrees) {
     const float angle = degrees * (3.14159265f / 180);

@@ -5,7 +5,7 @@
 namespace regather::spatial {
 namespace {
 
-constexpr std::uint32_t most_along = 1u << 20;
+constexpr std::uint32_t most_planes_along = 1u << 20;
 
 /// Of a box, in doubles: floats may not hold it.
 std::array<double, 3> sides_of(const trace::Bounds3& box) {
@@ -70,7 +70,7 @@ CellPlace CellPlanes::cell_of(Vec3 point) const {
 
 std::uint32_t cells_along(const trace::Bounds3& box, std::uint64_t cells) {
     const std::array<double, 3> sides = sides_of(box);
-    std::uint32_t low = 1, high = most_along + 1;  // low is few enough, high is too many
+    std::uint32_t low = 1, high = most_planes_along + 1;  // low is few enough, high is too many
     if (std::max({sides[0], sides[1], sides[2]}) == 0) return 1;
     while (high - low > 1) {
         const std::uint32_t middle = low + (high - low) / 2;

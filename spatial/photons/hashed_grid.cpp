@@ -7,7 +7,7 @@
 namespace regather::spatial {
 namespace {
 
-constexpr std::uint32_t most_along = 1u << 20;
+constexpr std::uint32_t most_cells_along = 1u << 20;
 
 std::vector<std::uint64_t> cells_of(const CellPlanes& planes, std::span<const Photon> photons) {
     std::vector<std::uint64_t> cells(photons.size());
@@ -28,10 +28,10 @@ CellPlanes planes_over(std::span<const Photon> photons, std::uint32_t cell_photo
     const Vec3 side = box.extent();
     const std::uint64_t wanted = (photons.size() + cell_photons - 1) / cell_photons;
     std::uint32_t along = cells_along(box, std::max<std::uint64_t>(1, wanted));
-    if (side.x == 0 && side.y == 0 && side.z == 0) along = most_along;
+    if (side.x == 0 && side.y == 0 && side.z == 0) along = most_cells_along;
     // A quarter more along each axis until enough of the cells hold photons.
-    while (along < most_along && different(cells_of({box, along}, photons)) < wanted)
-        along = std::min(most_along, std::max(along + 1, along / 4 * 5));
+    while (along < most_cells_along && different(cells_of({box, along}, photons)) < wanted)
+        along = std::min(most_cells_along, std::max(along + 1, along / 4 * 5));
     return {box, along};
 }
 

@@ -86,28 +86,28 @@ void prefetch(const Record& record) {
         _mm_prefetch(reinterpret_cast<const char*>(&record) + at, _MM_HINT_T0);
 }
 
-struct Item {
+struct PlacedNode {
     Vec3 position;
     std::uint32_t node;
 };
 
 /// Orders the items such that each 16 are a bucket: halves at a power of two of buckets, as far as there are
 /// any.
-void split(std::span<Item> items) {
+void split(std::span<PlacedNode> items) {
     constexpr std::size_t bucket = PhotonBuckets::bucket_photons;
     if (items.size() <= bucket) return;
     const std::size_t leaves = (items.size() + bucket - 1) / bucket;
     const std::size_t left = std::bit_ceil(leaves) / 2 * bucket;
     trace::Bounds3 box;
-    for (const Item& item : items) box.include(item.position);
+    for (const PlacedNode& item : items) box.include(item.position);
     const Vec3 side = box.extent();
     const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
     std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(left), items.end(),
-                     [axis](const Item& a, const Item& b) {
+                     [axis](const PlacedNode& a, const PlacedNode& b) {
                          const float x = a.position[axis], y = b.position[axis];
                          return x < y || (x == y && a.node < b.node);
                      });
-    const std::span<Item> low = items.first(left), high = items.subspan(left);
+    const std::span<PlacedNode> low = items.first(left), high = items.subspan(left);
     if (leaves > task_leaves)
         tbb::parallel_invoke([&] { split(low); }, [&] { split(high); });
     else
@@ -120,7 +120,7 @@ PhotonBuckets::PhotonBuckets(std::span<const Photon> photons) {
     if (photons.size() >= std::size_t{1} << 31)
         throw trace::DataError(fmt::format("photons: found {}, expected fewer than 2^31", photons.size()));
     size_ = static_cast<std::uint32_t>(photons.size());
-    std::vector<Item> items(photons.size());
+    std::vector<PlacedNode> items(photons.size());
     for (std::size_t i = 0; i < photons.size(); ++i) {
         if (!trace::is_finite(photons[i].position))
             throw trace::DataError(fmt::format("photon {}: found a position that is not finite", i));

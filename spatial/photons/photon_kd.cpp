@@ -16,7 +16,7 @@
 namespace regather::spatial {
 namespace {
 
-struct Item {
+struct PlacedPhoton {
     Vec3 position;
     std::uint32_t photon;
 };
@@ -34,23 +34,23 @@ class Builder {
 public:
     Builder(std::span<const Photon> photons, std::vector<Photon>& heap) : photons_(photons), heap_(heap) {}
 
-    void build(std::span<Item> items, std::size_t slot) {
+    void build(std::span<PlacedPhoton> items, std::size_t slot) {
         if (items.empty()) return;
         trace::Bounds3 box;
-        for (const Item& item : items) box.include(item.position);
+        for (const PlacedPhoton& item : items) box.include(item.position);
         const Vec3 side = box.extent();
         const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
 
         const std::size_t left = items.size() == 1 ? 0 : left_count(items.size());
         std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(left), items.end(),
-                         [axis](const Item& a, const Item& b) {
+                         [axis](const PlacedPhoton& a, const PlacedPhoton& b) {
                              const float x = a.position[axis], y = b.position[axis];
                              return x < y || (x == y && a.photon < b.photon);
                          });
         Photon& node = heap_[slot - 1] = photons_[items[left].photon];
         node.flags = static_cast<std::uint16_t>((node.flags & ~3u) | static_cast<unsigned>(axis));
 
-        const std::span<Item> low = items.first(left), high = items.subspan(left + 1);
+        const std::span<PlacedPhoton> low = items.first(left), high = items.subspan(left + 1);
         if (items.size() > task_photons) {
             tbb::task_group tasks;
             tasks.run([this, low, slot] { build(low, 2 * slot); });
@@ -72,7 +72,7 @@ private:
 std::vector<Photon> left_balanced(std::span<const Photon> photons) {
     if (photons.size() >= (std::size_t{1} << 31))
         throw trace::DataError(fmt::format("photons: found {}, expected fewer than 2^31", photons.size()));
-    std::vector<Item> items(photons.size());
+    std::vector<PlacedPhoton> items(photons.size());
     for (std::size_t i = 0; i < photons.size(); ++i) {
         if (!trace::is_finite(photons[i].position))
             throw trace::DataError(fmt::format("photon {}: found a position that is not finite", i));

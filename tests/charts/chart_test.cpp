@@ -36,7 +36,7 @@ std::vector<Row> figure() {
     return rows;
 }
 
-Chart compose(std::string_view name, const std::vector<Row>& rows, const ChartOptions& options = {}) {
+Chart composed(std::string_view name, const std::vector<Row>& rows, const ChartOptions& options = {}) {
     return compose(name, results::Rows(rows), options);
 }
 
@@ -46,7 +46,7 @@ std::string data(const Chart& chart, const std::string& label, int panel = 0) {
 }
 
 TEST(Chart, TrafficByTileHoldsThePointsInGigabytes) {
-    const Chart chart = compose("traffic-by-tile", figure());
+    const Chart chart = composed("traffic-by-tile", figure());
     EXPECT_EQ(data(chart, "Direction bins 16×16"), "16 36\n64 52\n");
     EXPECT_EQ(data(chart, "Hilbert"), "16 11\n64 2.2\n");
     // A level line from edge to edge: past the first and the last tile size.
@@ -77,7 +77,7 @@ TEST(Chart, TrafficByTileHoldsThePointsInGigabytes) {
 }
 
 TEST(Chart, TrafficByCacheHoldsTilesNearSixteen) {
-    const Chart chart = compose("traffic-by-cache", figure());
+    const Chart chart = composed("traffic-by-cache", figure());
     EXPECT_EQ(data(chart, "Hilbert, 16×16 tiles"), "65536 14\n131072 11\n");
     EXPECT_EQ(data(chart, "Naive"), "131072 211\n");
     EXPECT_THAT(script(chart, Picture::svg), HasSubstr("('64' 65536, '128' 131072)"));
@@ -87,12 +87,12 @@ TEST(Chart, TrafficByCacheHoldsTilesNearSixteen) {
 
 TEST(Chart, SmallTrafficGetsASmallerUnit) {
     std::vector<Row> rows = {made_row("tiled", 8, {}, 999999999), made_row("tiled", 16, {}, 2000)};
-    EXPECT_EQ(data(compose("traffic-by-tile", rows), "Tiled"), "8 999.999999\n16 0.002\n");
-    EXPECT_THAT(script(compose("traffic-by-tile", rows), Picture::svg), HasSubstr("[MB]"));
+    EXPECT_EQ(data(composed("traffic-by-tile", rows), "Tiled"), "8 999.999999\n16 0.002\n");
+    EXPECT_THAT(script(composed("traffic-by-tile", rows), Picture::svg), HasSubstr("[MB]"));
 }
 
 TEST(Chart, CostByTileHasOperationsPerQueryAboveBufferedBytes) {
-    const Chart chart = compose("cost-by-tile", figure());
+    const Chart chart = composed("cost-by-tile", figure());
     EXPECT_EQ(data(chart, "Hilbert", 0), "16 127\n64 127\n");
     EXPECT_EQ(data(chart, "Hilbert", 1), "16 12288\n64 196608\n");
     EXPECT_EQ(data(chart, "Direction bins 16×16", 0), "16 1536\n64 1536\n");
@@ -107,7 +107,7 @@ TEST(Chart, CostByTileHasOperationsPerQueryAboveBufferedBytes) {
 }
 
 TEST(Chart, CostByBinsRunsOverDirectionBinnedOrderingsOnly) {
-    const Chart chart = compose("cost-by-bins", figure());
+    const Chart chart = composed("cost-by-bins", figure());
     EXPECT_EQ(data(chart, "Direction bins, 16×16 tiles", 0), "4 96\n16 1536\n");
     EXPECT_EQ(data(chart, "Direction bins, 16×16 tiles", 1), "4 12288\n16 12288\n");
     EXPECT_THAT(script(chart, Picture::svg), HasSubstr("'4×4' 4, '16×16' 16"));
@@ -115,23 +115,23 @@ TEST(Chart, CostByBinsRunsOverDirectionBinnedOrderingsOnly) {
 }
 
 TEST(Chart, WithoutRowsForItIsSkippedWithAReason) {
-    EXPECT_EQ(compose("traffic-by-tile", {}).skipped, "no row has cache_bytes, line_bytes and ways");
+    EXPECT_EQ(composed("traffic-by-tile", {}).skipped, "no row has cache_bytes, line_bytes and ways");
     const std::vector<Row> naive = {made_row("naive", {}, {}, 211)};
-    EXPECT_EQ(compose("traffic-by-tile", naive).skipped,
+    EXPECT_EQ(composed("traffic-by-tile", naive).skipped,
               "needs at least 2 tile sizes; found 0 with the cache 128 KiB, 128 B lines, 8-way");
-    EXPECT_EQ(compose("traffic-by-cache", naive).skipped,
+    EXPECT_EQ(composed("traffic-by-cache", naive).skipped,
               "needs at least 2 cache sizes; found 1 with the cache 128 KiB, 128 B lines, 8-way");
-    EXPECT_EQ(compose("cost-by-bins", naive).skipped,
+    EXPECT_EQ(composed("cost-by-bins", naive).skipped,
               "needs at least 2 numbers of bins; found 0 with the cache 128 KiB, 128 B lines, 8-way");
     ChartOptions other;
     other.cache = Geometry{4096, 64, 0};
-    EXPECT_EQ(compose("traffic-by-tile", figure(), other).skipped,
+    EXPECT_EQ(composed("traffic-by-tile", figure(), other).skipped,
               "no row has the cache 4 KiB, 64 B lines, fully associative");
     std::vector<Row> uncosted = {made_row("tiled", 8, {}, 1), made_row("tiled", 16, {}, 1)};
-    EXPECT_EQ(compose("cost-by-tile", uncosted).skipped,
+    EXPECT_EQ(composed("cost-by-tile", uncosted).skipped,
               "no row has key_ops with queries, or buffered_bytes, above 0");
     for (Row& row : uncosted) row.traffic_bytes = 0;
-    EXPECT_EQ(compose("traffic-by-tile", uncosted).skipped, "no traffic above 0");
+    EXPECT_EQ(composed("traffic-by-tile", uncosted).skipped, "no traffic above 0");
 }
 
 TEST(Chart, AnUnknownKindIsRefusedWithTheKnownOnes) {
@@ -176,7 +176,7 @@ TEST(Chart, EveryKindBecomesTwoPicturesWithItsLabels) {
 }
 
 TEST(Chart, TheSameRowsGiveTheSameBytes) {
-    const Chart a = compose("traffic-by-tile", figure()), b = compose("traffic-by-tile", figure());
+    const Chart a = composed("traffic-by-tile", figure()), b = composed("traffic-by-tile", figure());
     EXPECT_EQ(script(a, Picture::svg), script(b, Picture::svg));
     EXPECT_EQ(render(a, Picture::svg), render(b, Picture::svg));
     EXPECT_EQ(render(a, Picture::png), render(b, Picture::png));
@@ -187,7 +187,7 @@ TEST(Chart, NamesFromOutsideCannotBreakTheScript) {
                              made_row("it's `id` \\ {/x} <b>&", 16, {}, 6000),
                              made_row("a\nexit 3\n", {}, {}, 7000)};
     for (Row& row : rows) row.scene = "ro'om\nEOD";
-    const std::string svg = render(compose("traffic-by-tile", rows), Picture::svg);
+    const std::string svg = render(composed("traffic-by-tile", rows), Picture::svg);
     EXPECT_THAT(svg, HasSubstr(">it’s `id` \\ {/x} &lt;b>&amp;<"));
     EXPECT_THAT(svg, HasSubstr("a exit 3 "));
     EXPECT_THAT(svg, HasSubstr(">ro’om EOD · "));

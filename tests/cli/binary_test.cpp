@@ -38,7 +38,7 @@ TEST(Scenes, AMisspeltKeyOfASceneFileIsBadData) {
 }
 
 TEST(Info, TellsWhatATraceHolds) {
-    const std::string text = expect_done({"info", (captured_box() / "trace").string()}).out;
+    const std::string text = expect_done({"info", box_trace()}).out;
     for (const char* part : {"scene      box", "16 x 16 pixels", "query_position", "float32 x 3",
                              "ray_gather_origin", "checksum"})
         EXPECT_THAT(text, HasSubstr(part));
@@ -54,9 +54,8 @@ TEST(Info, TellsWhatASceneNeeds) {
 class Chart : public testing::Test {
 protected:
     void SetUp() override {
-        expect_done({"replay", (captured_box() / "trace").string(), "--order", "naive", "tiled:tile=4",
-                     "tiled:tile=8", "hilbert:tile=4", "hilbert:tile=8", "--cache", "4K:128:8", "--csv",
-                     csv_.string()});
+        expect_done({"replay", box_trace(), "--order", "naive", "tiled:tile=4", "tiled:tile=8",
+                     "hilbert:tile=4", "hilbert:tile=8", "--cache", "4K:128:8", "--csv", csv_.string()});
     }
     std::vector<std::string> words(const std::vector<std::string>& more = {}) const {
         return std::vector<std::string>{"chart", csv_.string(), "-o", charts_.string()} + more;

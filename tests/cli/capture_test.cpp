@@ -14,7 +14,7 @@ TEST(Capture, MakesImagesAndATrace) {
     EXPECT_EQ(files.at("image.png").substr(0, 8), "\x89PNG\r\n\x1a\n");
     EXPECT_TRUE(files.contains("trace/trace.json"));
     for (const auto& [name, bytes] : files) EXPECT_THAT(name, testing::Not(HasSubstr("partial")));
-    EXPECT_THAT(expect_done({"info", (captured_box() / "trace").string(), "--verify"}).out,
+    EXPECT_THAT(expect_done({"info", box_trace(), "--verify"}).out,
                 testing::AllOf(HasSubstr("16 x 16 pixels"), HasSubstr("2000 photons, k = 20"),
                                HasSubstr("verified")));
 }

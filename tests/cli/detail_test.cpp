@@ -17,7 +17,7 @@ using Words = std::vector<std::string>;
 
 TEST(Detail, RowsSumToThoseOfReplay) {
     const Scratch scratch;
-    const std::string trace = (captured_box() / "trace").string(), csv = (scratch / "detail.csv").string(),
+    const std::string trace = box_trace(), csv = (scratch / "detail.csv").string(),
                       timeline = (scratch / "timeline.csv").string();
     const Words what{trace,     "--order",  "naive",     "hilbert", "hashed:buckets=16,capacity=4",
                      "--cache", "4K:128:8", "2K:64:full"};
@@ -65,8 +65,7 @@ TEST(Detail, RowsSumToThoseOfReplay) {
 TEST(Detail, AnotherLayoutIsToldApartByRegionAndSumsToWhatReplayTells) {
     const Scratch scratch;
     const std::string to = (scratch / "t").string(), csv = (scratch / "rows.csv").string();
-    expect_done(
-        {"walk", (captured_box() / "trace").string(), "--structure", "midpoint-kd:leaf=7,found=1", "-o", to});
+    expect_done({"walk", box_trace(), "--structure", "midpoint-kd:leaf=7,found=1", "-o", to});
     const Words what{
         to, "--order", "hilbert", "--cache", "4K:128:8", "--layout", "van-emde-boas-12+6:node=10"};
     expect_done(Words{"detail"} + what + Words{"--csv", csv});
@@ -88,8 +87,8 @@ TEST(Detail, BuffersThatDoNotFitTheChipAreARegion) {
     const Scratch scratch;
     const auto buffer_traffic = [&](const std::string& onchip) {
         const std::string csv = (scratch / "rows.csv").string();
-        expect_done({"detail", (captured_box() / "trace").string(), "--order", "hilbert", "--onchip", onchip,
-                     "--csv", csv, "--force"});
+        expect_done(
+            {"detail", box_trace(), "--order", "hilbert", "--onchip", onchip, "--csv", csv, "--force"});
         const auto rows = results::read_csv<results::DetailRow>(csv);
         EXPECT_EQ(rows.size(), 12u);
         EXPECT_EQ(rows.back().region, "reorder_buffer");
@@ -101,7 +100,7 @@ TEST(Detail, BuffersThatDoNotFitTheChipAreARegion) {
 }
 
 TEST(Detail, TheTableTellsTrafficAndALibrarysBuffersAreNotKnown) {
-    const std::string trace = (captured_box() / "trace").string();
+    const std::string trace = box_trace();
     const Outcome naive = expect_done({"detail", trace, "--order", "naive", "--cache", "4K:128:8"});
     for (const char* word :
          {"box |", "heap-20 |", "4096:128:8", "structure", "buffers", "overfetch", "3C", "\nnaive "})
@@ -111,7 +110,7 @@ TEST(Detail, TheTableTellsTrafficAndALibrarysBuffersAreNotKnown) {
 
 TEST(Detail, ProvenanceLiesBesideBothFiles) {
     const Scratch scratch;
-    const std::string trace = (captured_box() / "trace").string();
+    const std::string trace = box_trace();
     expect_done({"detail", trace, "--order", "naive", "--csv", (scratch / "a.csv").string(), "--timeline",
                  (scratch / "b.csv").string()});
     for (const char* name : {"a.json", "b.json"}) {
@@ -123,7 +122,7 @@ TEST(Detail, ProvenanceLiesBesideBothFiles) {
 
 TEST(Detail, FilesAreOverwrittenOnlyByForceAndMayNotShareAName) {
     const Scratch scratch;
-    const Words words{"detail", (captured_box() / "trace").string(), "--order", "naive"};
+    const Words words{"detail", box_trace(), "--order", "naive"};
     const std::string csv = (scratch / "rows.csv").string(), other = (scratch / "rows.txt").string();
     write(csv, "precious");
     expect_refused(bad_usage, words + Words{"--csv", csv}, {"rows.csv", "--force"});
@@ -140,7 +139,7 @@ TEST(Detail, FilesAreOverwrittenOnlyByForceAndMayNotShareAName) {
 }
 
 TEST(Detail, BadWordsAreRefused) {
-    const Words words{"detail", (captured_box() / "trace").string(), "--order", "naive"};
+    const Words words{"detail", box_trace(), "--order", "naive"};
     expect_refused(bad_usage, words + Words{"--slices", "0"}, {"--slices", "0"});
     expect_refused(bad_usage, words + Words{"--cache", "4K:100:8"}, {"line_bytes", "100"});
     expect_refused(bad_usage, {"detail", "x", "--order", "naiv"}, {"naive"});

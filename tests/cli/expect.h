@@ -62,6 +62,11 @@ inline const std::filesystem::path& captured_box() {
     return folder;
 }
 
+/// Its trace.
+inline std::string box_trace() {
+    return (captured_box() / "trace").string();
+}
+
 /// A copy of its trace.
 inline std::filesystem::path copied_trace(const Scratch& scratch, const std::string& name = "trace") {
     std::filesystem::copy(captured_box() / "trace", scratch / name, std::filesystem::copy_options::recursive);

@@ -15,14 +15,10 @@ using results::FrameRow, results::MachineRow;
 using testing::HasSubstr;
 using Words = std::vector<std::string>;
 
-std::string box() {
-    return (captured_box() / "trace").string();
-}
-
 std::string walked(const Scratch& scratch, const std::string& rays, const std::string& structure) {
     const fs::path to = scratch / fmt::format("{} {}", rays, structure);
     if (!fs::exists(to))
-        expect_done({"walk", box(), "--rays", rays, "--structure", structure, "-o", to.string()});
+        expect_done({"walk", box_trace(), "--rays", rays, "--structure", structure, "-o", to.string()});
     return to.string();
 }
 
@@ -70,7 +66,7 @@ TEST(FrameCommand, OneTraceAloneIsItsReplayThroughTheMachine) {
 TEST(FrameCommand, RaysShareTheHierarchyAndPhotonsLieElsewhere) {
     const Scratch scratch;
     const Words traces{walked(scratch, "eye", "bvh-2"), walked(scratch, "shadow", "bvh-2"),
-                       walked(scratch, "gather", "bvh-2"), box()};
+                       walked(scratch, "gather", "bvh-2"), box_trace()};
     // All fits: apart each fetches its lines, together only the first does.
     const auto ample = framed(
         traces + Words{"--order", "naive", "--cache", "4M:64:full", "--unit", "pixel", "tile=4", "frame"});
@@ -105,7 +101,7 @@ TEST(FrameCommand, EachTraceHasItsOrderAndLayout) {
     const Words words{"frame",
                       walked(scratch, "gather", "bvh-4"),
                       walked(scratch, "eye", "bvh-4"),
-                      box(),
+                      box_trace(),
                       "--order",
                       "origin-end:tile=4",
                       "hilbert:tile=4",
@@ -141,16 +137,17 @@ TEST(FrameCommand, WhatIsNoFrameIsRefused) {
         expect_refused(code, Words{"frame"} + words, parts);
     };
     refused(bad_usage, {eye, eye + "/.", "--order", "naive"}, {"found eye rays as in", "each kind once"});
-    refused(bad_usage, {eye, box(), "--order", "naive", "tiled", "random"},
+    refused(bad_usage, {eye, box_trace(), "--order", "naive", "tiled", "random"},
             {"--order: found 3 for 2 traces"});
-    refused(bad_usage, {eye, box(), "--order", "naive", "--layout", "heap-36", "heap-36", "heap-20"},
+    refused(bad_usage, {eye, box_trace(), "--order", "naive", "--layout", "heap-36", "heap-36", "heap-20"},
             {"--layout: found 3 for 2 traces"});
     for (const char* unit : {"tile", "tile=", "tile=0", "tile=65537", "tile=4x", "tile=-1", "pixels"})
         refused(bad_usage, {eye, "--order", "naive", "--unit", unit},
                 {fmt::format("--unit: found \"{}\", expected pixel, tile=N", unit)});
     refused(bad_usage, {eye, "--order", "naive", "--cache", "100:64:1"},
             {"cache 100:64:1: size_bytes: found 100"});
-    refused(bad_usage, {eye, box(), "--order", "naive", "--layout", "heap-36"}, {"unknown record \"36\""});
+    refused(bad_usage, {eye, box_trace(), "--order", "naive", "--layout", "heap-36"},
+            {"unknown record \"36\""});
     Words again = small_capture(other);
     again.insert(again.end(), {"--seed", "2"});
     expect_done(again);

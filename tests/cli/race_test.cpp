@@ -36,7 +36,7 @@ std::vector<std::vector<std::string>> cells(const std::string& csv) {
 }
 
 std::vector<std::string> small_race(const std::vector<std::string>& more) {
-    return std::vector<std::string>{"race", (captured_box() / "trace").string(), "--repeats", "2"} + more;
+    return std::vector<std::string>{"race", box_trace(), "--repeats", "2"} + more;
 }
 
 TEST(Race, ARowForEveryOrderingOnEveryStructure) {

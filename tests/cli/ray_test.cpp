@@ -17,13 +17,9 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using trace::Vec3;
 
-std::string box() {
-    return (captured_box() / "trace").string();
-}
-
 fs::path walked(const Scratch& scratch, const std::string& rays, const std::string& structure) {
     const fs::path to = scratch / fmt::format("{} {}", rays, structure);
-    expect_done({"walk", box(), "--rays", rays, "--structure", structure, "-o", to.string()});
+    expect_done({"walk", box_trace(), "--rays", rays, "--structure", structure, "-o", to.string()});
     return to;
 }
 
@@ -34,7 +30,7 @@ std::vector<results::Row> replayed(const fs::path& trace, const std::vector<std:
 
 TEST(Rays, OfEveryKindAreATraceInEveryStructure) {
     const Scratch scratch;
-    trace::TraceReader original(box());
+    trace::TraceReader original(box_trace());
     for (const std::string kind : {"eye", "shadow", "gather"})
         for (const std::string structure :
              {"ray-bvh", "bvh-2", "bvh-4:leaf=2", "bvh-8:quantised=1,stack=1"}) {
@@ -69,7 +65,7 @@ TEST(Rays, OfEveryKindAreATraceInEveryStructure) {
 // Where a gather ray ends on a surface that is not specular, the capture asked for photons.
 TEST(Rays, EndWhereTheCaptureFoundSurfaces) {
     const Scratch scratch;
-    trace::TraceReader original(box()), rays(walked(scratch, "gather", "bvh-4"));
+    trace::TraceReader original(box_trace()), rays(walked(scratch, "gather", "bvh-4"));
     const auto asked = original.column<Vec3>("query_position"), end = rays.column<Vec3>("query_end");
     const auto asked_pixel = original.column<std::uint32_t>("query_pixel"),
                pixel = rays.column<std::uint32_t>("query_pixel");
@@ -129,7 +125,7 @@ TEST(Rays, WhatDoesNotFitIsRefused) {
     const std::string to = (scratch / "t").string();
     const auto refused = [&](int code, const std::vector<std::string>& words,
                              const std::vector<std::string>& parts) {
-        expect_refused(code, std::vector<std::string>{"walk", box(), "-o", to} + words, parts);
+        expect_refused(code, std::vector<std::string>{"walk", box_trace(), "-o", to} + words, parts);
         EXPECT_FALSE(fs::exists(to));
     };
     refused(bad_usage, {"--rays", "gathr"}, {"--rays: found \"gathr\"", "\"gather\""});
@@ -144,10 +140,11 @@ TEST(Rays, WhatDoesNotFitIsRefused) {
     refused(bad_usage, {"--rays", "eye", "--scene", "nowhere"}, {"nowhere", "--scene"});
     refused(bad_data, {"--rays", "eye", "--scene", "room"}, {"parameters.scene_checksum", "--scene"});
     refused(bad_data, {"--rays", "specular"}, {"ray_specular_origin.npy", "no such column"});
-    expect_refused(bad_usage, {"walk", box(), "--rays", "eye", "-o", box(), "--force"}, {"another folder"});
+    expect_refused(bad_usage, {"walk", box_trace(), "--rays", "eye", "-o", box_trace(), "--force"},
+                   {"another folder"});
 
     for (const char* order : {"origin-end", "origin-guess"})
-        expect_refused(bad_data, {"replay", box(), "--order", order},
+        expect_refused(bad_data, {"replay", box_trace(), "--order", order},
                        {"query_", "no such column", "regather walk TRACE --rays KIND"});
     const fs::path rays = walked(scratch, "eye", "bvh-4:leaf=3");
     expect_refused(bad_data, {"walk", rays.string(), "--rays", "eye", "-o", to},
@@ -159,9 +156,10 @@ TEST(Rays, WhatDoesNotFitIsRefused) {
     };
     expect_refused(bad_usage, replay("heap-20"), {"unknown record of a triangle \"20\"", "36, 48"});
     expect_refused(bad_usage, replay("heap-48:node=64"), {"node is 64, expected 128 to 1024"});
-    expect_refused(bad_usage, {"replay", box(), "--order", "naive", "--layout", "heap-48"},
+    expect_refused(bad_usage, {"replay", box_trace(), "--order", "naive", "--layout", "heap-48"},
                    {"unknown record \"48\""});
-    expect_refused(bad_data, {"replay", box(), "--order", "origin-end"}, {"query_end.npy", "no such column"});
+    expect_refused(bad_data, {"replay", box_trace(), "--order", "origin-end"},
+                   {"query_end.npy", "no such column"});
 }
 
 TEST(Rays, ADamagedTraceIsRefused) {
@@ -236,7 +234,8 @@ TEST(TreeletQueues, OneTreeletIsThePlainOrderAndSmallOnesCost) {
     EXPECT_GT(accesses.at("naive+treelets reorder_buffer"), 0u);
     EXPECT_GT(accesses.at("naive+treelets stack"), 0u);
 
-    expect_refused(bad_usage, {"replay", box(), "--order", "naive", "--treelets", "1K", "--queue", "50"},
+    expect_refused(bad_usage,
+                   {"replay", box_trace(), "--order", "naive", "--treelets", "1K", "--queue", "50"},
                    {"treelets: found walks through left-balanced-kd", "walk --rays"});
     expect_refused(bad_usage, {"replay", gather, "--order", "naive", "--treelets", "0", "--queue", "50"},
                    {"--treelets: 0 is 0, expected 1 to 1073741824"});

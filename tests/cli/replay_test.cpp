@@ -26,7 +26,7 @@ std::vector<std::string> every_ordering() {
 TEST(Replay, EveryOrderingGetsARowForEachCache) {
     const Scratch scratch;
     const fs::path csv = scratch / "rows.csv";
-    const std::string trace = (captured_box() / "trace").string();
+    const std::string trace = box_trace();
     expect_done(std::vector<std::string>{"replay", trace} + every_ordering() +
                 std::vector<std::string>{"--cache", "4K:128:8", "2K:64:full", "--csv", csv.string()});
     EXPECT_THAT(
@@ -60,15 +60,14 @@ TEST(Replay, EveryOrderingGetsARowForEachCache) {
 }
 
 TEST(Replay, ACacheThatHoldsAllMissesOnlyTheCompulsory) {
-    const std::string csv = expect_done({"replay", (captured_box() / "trace").string(), "--order", "random",
-                                         "--cache", "1M:128:full"})
-                                .out;
+    const std::string csv =
+        expect_done({"replay", box_trace(), "--order", "random", "--cache", "1M:128:full"}).out;
     const results::Row row = results::from_csv(csv, "stdout").at(0);
     EXPECT_EQ(row.traffic_bytes, row.compulsory_bytes);
 }
 
 TEST(Replay, EachLayoutGetsRowsOfItsOwn) {
-    const std::string trace = (captured_box() / "trace").string();
+    const std::string trace = box_trace();
     const auto rows = [&](std::vector<std::string> layouts) {
         return results::from_csv(
             expect_done(std::vector<std::string>{"replay", trace, "--order", "random", "naive", "--cache",
@@ -104,7 +103,7 @@ TEST(Replay, EachLayoutGetsRowsOfItsOwn) {
 }
 
 TEST(Replay, ALayoutThatIsNotOneIsRefused) {
-    const std::string trace = (captured_box() / "trace").string();
+    const std::string trace = box_trace();
     expect_refused(2, {"replay", trace, "--order", "naive", "--layout", "heaps-20"}, {"nearest: heap"});
     expect_refused(2,
                    {"replay", trace, "--order", "naive", "--layout", "clusters-20", "clusters-20:line=128"},
@@ -113,7 +112,7 @@ TEST(Replay, ALayoutThatIsNotOneIsRefused) {
 
 TEST(Replay, TheJsonBesideTheCsvSaysHowItCameToBe) {
     const Scratch scratch;
-    const std::string trace = (captured_box() / "trace").string(), csv = (scratch / "rows.csv").string();
+    const std::string trace = box_trace(), csv = (scratch / "rows.csv").string();
     expect_done({"replay", trace, "--order", "naive", "--csv", csv});
     const auto json = nlohmann::json::parse(content(scratch / "rows.json"));
     EXPECT_EQ(json.at("command_line"),
@@ -125,8 +124,8 @@ TEST(Replay, TheJsonBesideTheCsvSaysHowItCameToBe) {
 
 TEST(Replay, FilesAreOverwrittenOnlyByForce) {
     const Scratch scratch;
-    const std::vector<std::string> words{"replay", (captured_box() / "trace").string(), "--order", "naive",
-                                         "--csv",  (scratch / "rows.csv").string()};
+    const std::vector<std::string> words{"replay", box_trace(), "--order",
+                                         "naive",  "--csv",     (scratch / "rows.csv").string()};
     write(scratch / "rows.csv", "precious");
     expect_refused(bad_usage, words, {"rows.csv", "--force"});
     EXPECT_EQ(contents(scratch.path()), (std::map<std::string, std::string>{{"rows.csv", "precious"}}));
@@ -142,15 +141,15 @@ TEST(Replay, FilesAreOverwrittenOnlyByForce) {
 
 TEST(Replay, ACsvMayNotTakeTheProvenancesName) {
     const Scratch scratch;
-    expect_refused(bad_usage,
-                   {"replay", (captured_box() / "trace").string(), "--order", "naive", "--csv",
-                    (scratch / "rows.json").string(), "--force"},
-                   {"rows.json", ".json"});
+    expect_refused(
+        bad_usage,
+        {"replay", box_trace(), "--order", "naive", "--csv", (scratch / "rows.json").string(), "--force"},
+        {"rows.json", ".json"});
     EXPECT_TRUE(fs::is_empty(scratch.path()));
 }
 
 TEST(Replay, AUsersLibraryIsAnOrdering) {
-    const std::string library = PLUGIN_DIRECTORY "/by_height.so", trace = (captured_box() / "trace").string();
+    const std::string library = PLUGIN_DIRECTORY "/by_height.so", trace = box_trace();
     const std::string csv = expect_done({"replay", trace, "--reorderer", library, "--cache", "4K:128:8"}).out;
     EXPECT_EQ(results::from_csv(csv, "stdout").at(0).ordering, "by-height");
     expect_refused(bad_usage, {"replay", trace, "--reorderer", library + ":fast"}, {"by_height.so", "fast"});
@@ -166,7 +165,7 @@ std::vector<std::int32_t> turned_round() {
 
 TEST(Replay, AFileMadeInNumPyIsAnOrderingWhereverOneIsTaken) {
     const Scratch scratch;
-    const std::string trace = (captured_box() / "trace").string(), keys = (scratch / "keys.npy").string(),
+    const std::string trace = box_trace(), keys = (scratch / "keys.npy").string(),
                       order = (scratch / "order.npy").string();
     std::vector<std::int32_t> values = turned_round();
     const auto all = static_cast<std::int32_t>(values.size());
@@ -201,7 +200,7 @@ TEST(Replay, AFileMadeInNumPyIsAnOrderingWhereverOneIsTaken) {
 
 TEST(Replay, AFileThatIsNoOrderOfTheTraceIsRefused) {
     const Scratch scratch;
-    const std::string trace = (captured_box() / "trace").string(), keys = (scratch / "keys.npy").string();
+    const std::string trace = box_trace(), keys = (scratch / "keys.npy").string();
     const auto refused = [&](const std::string& suffix, const std::vector<std::string>& parts) {
         expect_refused(bad_data, {"replay", trace, "--order", "file:" + keys + suffix}, parts);
     };
@@ -241,14 +240,8 @@ TEST(Replay, AColumnThatWasLeftOutIsNamedWithItsReason) {
 }
 
 TEST(Replay, ClassesAddUpToTheMisses) {
-    const std::vector<std::string> words{"replay",
-                                         (captured_box() / "trace").string(),
-                                         "--order",
-                                         "naive",
-                                         "random",
-                                         "--cache",
-                                         "1K,2K:64:1,2,full",
-                                         "4K:128:32"};
+    const std::vector<std::string> words{"replay", box_trace(), "--order",           "naive",
+                                         "random", "--cache",   "1K,2K:64:1,2,full", "4K:128:32"};
     const auto with =
         results::from_csv(expect_done(words + std::vector<std::string>{"--classes"}).out, "stdout");
     const auto without = results::from_csv(expect_done(words).out, "stdout");
@@ -276,9 +269,8 @@ TEST(Replay, ClassesAddUpToTheMisses) {
 }
 
 TEST(Replay, ASampleSaysHowFarOffItMayBe) {
-    const std::vector<std::string> words{
-        "replay",  (captured_box() / "trace").string(), "--order", "naive", "hilbert", "--cache", "2K:64:1,2",
-        "4K:128:2"};
+    const std::vector<std::string> words{"replay",  box_trace(), "--order",   "naive",
+                                         "hilbert", "--cache",   "2K:64:1,2", "4K:128:2"};
     const auto sampled = [&](const std::string& rate, const std::string& seed) {
         return results::from_csv(
             expect_done(words + std::vector<std::string>{"--sample", rate, "--seed", seed}).out, "stdout");
@@ -308,8 +300,7 @@ TEST(Replay, ASampleSaysHowFarOffItMayBe) {
 }
 
 TEST(Replay, WhatCannotBeSampledIsAUsageError) {
-    const std::vector<std::string> words{"replay", (captured_box() / "trace").string(), "--order", "naive",
-                                         "--cache"};
+    const std::vector<std::string> words{"replay", box_trace(), "--order", "naive", "--cache"};
     const auto refused = [&](const std::vector<std::string>& more, const std::vector<std::string>& parts) {
         expect_refused(bad_usage, words + more, parts);
     };
@@ -446,7 +437,7 @@ TEST(Damaged, TraceJsonIsRefusedByFieldAndFileName) {
 
 TEST(Replay, AMachineOfOneLevelMovesWhatThatCacheMoves) {
     const Scratch scratch;
-    const std::string trace = (captured_box() / "trace").string();
+    const std::string trace = box_trace();
     const std::vector<std::string> asked{"replay",          trace,      "--order", "naive",
                                          "hilbert:tile=16", "--layout", "heap-32", "heap-20"};
     const auto through = [&](const char* option, const char* what) {
@@ -471,7 +462,7 @@ TEST(Replay, AMachineOfOneLevelMovesWhatThatCacheMoves) {
 }
 
 TEST(Replay, BuffersThatFitTheChipAddNothingAndOthersAtLeastTheirBytes) {
-    const std::string trace = (captured_box() / "trace").string();
+    const std::string trace = box_trace();
     const auto rows = [&](const std::string& onchip) {
         return results::from_csv(expect_done({"replay", trace, "--order", "naive", "hilbert", "--cache",
                                               "1K:128:8", "--buffers", "--onchip", onchip})

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-const char* const experiment = R"({
+const char* const small_experiment = R"({
     "scene": "box",
     "capture": {"width": 16, "height": 16, "photons": 2000, "k": 20, "gather_rays": 8, "shadow_rays": 4},
     "caches": [{"size": ["2K", 4096], "line": 128, "ways": 8}],
@@ -32,7 +32,7 @@ constexpr std::size_t trials = 5, rows = 10;
 
 class Run : public testing::Test {
 protected:
-    Run() { write(file_, experiment); }
+    Run() { write(file_, small_experiment); }
     std::vector<std::string> words() const { return {"run", file_.string(), "-o", folder_.string()}; }
     /// The rows of one trial each.
     std::vector<fs::path> parts() const {
@@ -56,7 +56,7 @@ protected:
     }
     /// The experiment with another text in place of one that occurs once.
     static std::string with(const std::string& before, const std::string& after) {
-        std::string text = experiment;
+        std::string text = small_experiment;
         return text.replace(text.find(before), before.size(), after);
     }
 
@@ -131,7 +131,7 @@ TEST_F(Run, AnotherTrialIsAddedToTheFinishedOnes) {
     write(file_, with("\"naive\",", "\"naive\", \"morton\","));
     expect_done(words());
     EXPECT_EQ(results::read_csv(folder_ / "rows.csv").size(), rows + 2);
-    write(file_, experiment);
+    write(file_, small_experiment);
     expect_done(words());
     EXPECT_EQ(content(folder_ / "rows.csv"), before);
 }
@@ -233,7 +233,7 @@ TEST_F(Run, ClassesAreAskedForByKey) {
         EXPECT_FALSE(row.set_sampling);
     }
     // Another method is another part: rows without classes do not come from those with them.
-    write(file_, experiment);
+    write(file_, small_experiment);
     expect_done(words());
     for (const results::Row& row : results::read_csv(folder_ / "rows.csv")) EXPECT_FALSE(row.compulsory);
 }

@@ -9,17 +9,13 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr, testing::StartsWith;
 
-std::string box() {
-    return (captured_box() / "trace").string();
-}
-
 TEST(Sampling, RowsHoldWhatReplaysTell) {
     const Scratch scratch;
     const fs::path csv = scratch / "sampling.csv";
     const std::vector<std::string> caches{"--cache", "1K,2K:64:1"};
     const Outcome outcome =
-        expect_done(std::vector<std::string>{"sampling", box(), "--order", "naive", "hilbert", "--rates",
-                                             "4,2", "--seeds", "3", "--csv", csv.string()} +
+        expect_done(std::vector<std::string>{"sampling", box_trace(), "--order", "naive", "hilbert",
+                                             "--rates", "4,2", "--seeds", "3", "--csv", csv.string()} +
                     caches);
     EXPECT_THAT(outcome.out, testing::AllOf(HasSubstr("hilbert"), HasSubstr("1/4"), HasSubstr(csv.string())));
     EXPECT_THAT(
@@ -34,7 +30,8 @@ TEST(Sampling, RowsHoldWhatReplaysTell) {
     for (const char* ordering : {"naive", "hilbert"}) {
         const auto replayed = [&](const std::vector<std::string>& words) {
             return results::from_csv(
-                expect_done(std::vector<std::string>{"replay", box(), "--order", ordering} + caches + words)
+                expect_done(std::vector<std::string>{"replay", box_trace(), "--order", ordering} + caches +
+                            words)
                     .out,
                 "stdout");
         };
@@ -63,7 +60,7 @@ TEST(Sampling, RowsHoldWhatReplaysTell) {
 }
 
 TEST(Sampling, WithoutACsvRowsGoToStdout) {
-    const std::string out = expect_done({"sampling", box(), "--order", "naive", "--cache", "2K:64:1",
+    const std::string out = expect_done({"sampling", box_trace(), "--order", "naive", "--cache", "2K:64:1",
                                          "--rates", "8", "--seeds", "2"})
                                 .out;
     EXPECT_EQ(results::from_csv<results::SamplingRow>(out, "stdout").size(), 2u);
@@ -71,9 +68,9 @@ TEST(Sampling, WithoutACsvRowsGoToStdout) {
 
 TEST(Sampling, FilesAreOverwrittenOnlyByForce) {
     const Scratch scratch;
-    const std::vector<std::string> words{"sampling", box(),     "--order", "naive",
-                                         "--cache",  "2K:64:1", "--rates", "2",
-                                         "--seeds",  "1",       "--csv",   (scratch / "s.csv").string()};
+    const std::vector<std::string> words{"sampling", box_trace(), "--order", "naive",
+                                         "--cache",  "2K:64:1",   "--rates", "2",
+                                         "--seeds",  "1",         "--csv",   (scratch / "s.csv").string()};
     for (const std::string name : {"s.csv", "s.json"}) {
         write(scratch / name, "precious");
         expect_refused(bad_usage, words, {name, "--force"});
@@ -83,17 +80,17 @@ TEST(Sampling, FilesAreOverwrittenOnlyByForce) {
     write(scratch / "s.csv", "precious");
     expect_done(words + std::vector<std::string>{"--force"});
     EXPECT_THAT(content(scratch / "s.csv"), StartsWith("scene,ordering,"));
-    expect_refused(bad_usage, {"sampling", box(), "--csv", (scratch / "t.json").string(), "--force"},
+    expect_refused(bad_usage, {"sampling", box_trace(), "--csv", (scratch / "t.json").string(), "--force"},
                    {"t.json", ".json"});
 }
 
 TEST(Sampling, WhatCannotBeSampledIsAUsageError) {
-    expect_refused(bad_usage, {"sampling", box(), "--cache", "2K:64:1", "--rates", "2,3"}, {"1/3"});
-    expect_refused(bad_usage, {"sampling", box(), "--cache", "2K:64:1", "--rates", "32"},
+    expect_refused(bad_usage, {"sampling", box_trace(), "--cache", "2K:64:1", "--rates", "2,3"}, {"1/3"});
+    expect_refused(bad_usage, {"sampling", box_trace(), "--cache", "2K:64:1", "--rates", "32"},
                    {"1/32", "at least 64 sets"});
-    expect_refused(bad_usage, {"sampling", box(), "--cache", "2K:64:full", "--rates", "2"}, {"all"});
-    expect_refused(bad_usage, {"sampling", box(), "--cache", "2K:64:1", "--seeds", "0"}, {"--seeds"});
-    expect_refused(bad_usage, {"sampling", box(), "--cache", "2K:64:1", "--order", "naif"}, {"naif"});
+    expect_refused(bad_usage, {"sampling", box_trace(), "--cache", "2K:64:full", "--rates", "2"}, {"all"});
+    expect_refused(bad_usage, {"sampling", box_trace(), "--cache", "2K:64:1", "--seeds", "0"}, {"--seeds"});
+    expect_refused(bad_usage, {"sampling", box_trace(), "--cache", "2K:64:1", "--order", "naif"}, {"naif"});
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST(Stability, ReportsEachCaseAndTheExitCode) {
 
 TEST(Heatmap, HoldsOneChannelAnOrderingWithTheReplaysBytes) {
     const Scratch scratch;
-    const std::string trace = (captured_box() / "trace").string();
+    const std::string trace = box_trace();
     const Words words{"heatmap", trace,     "--order",
                       "naive",   "hilbert", "--cache",
                       "2K:64:2", "-o",      (scratch / "out").string()};

@@ -69,7 +69,7 @@ TEST(Usage, ImpossibleCaptureValuesLeaveNoFolder) {
 
 TEST(Usage, ImpossibleReplayValuesLeaveNoFile) {
     const Scratch scratch;
-    const std::string trace = (captured_box() / "trace").string(), csv = (scratch / "rows.csv").string();
+    const std::string trace = box_trace(), csv = (scratch / "rows.csv").string();
     const auto refused = [&](const std::string& order, const std::string& cache,
                              const std::vector<std::string>& parts) {
         expect_refused(bad_usage, {"replay", trace, "--order", order, "--cache", cache, "--csv", csv}, parts);
@@ -94,7 +94,7 @@ TEST(Usage, ImpossibleReplayValuesLeaveNoFile) {
 TEST(Binary, OutputThatCannotBeWrittenIsAFailedRun) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP();
     for (const std::vector<std::string>& words :
-         {std::vector<std::string>{"--help"}, {"info", (captured_box() / "trace").string()}}) {
+         {std::vector<std::string>{"--help"}, {"info", box_trace()}}) {
         const Outcome outcome = Process(words, "/dev/full").outcome();
         EXPECT_EQ(outcome.exit_code, run_failed) << words.front();
         EXPECT_THAT(outcome.err, HasSubstr("regather: stdout: cannot write: No space left"));
@@ -121,7 +121,7 @@ void expect_cut(int exit_code, const std::vector<std::string>& words) {
 }
 
 TEST(Usage, AnOutputNobodyCanHaveIsWrongUsageAndCut) {
-    const std::string name = std::string(5000, 'x') + "\x1b[31m", trace = (captured_box() / "trace").string();
+    const std::string name = std::string(5000, 'x') + "\x1b[31m", trace = box_trace();
     expect_cut(bad_usage, small_capture(name));
     expect_cut(bad_usage, {"reference", "box", "-o", name});
     expect_cut(bad_usage, {"replay", trace, "--order", "naive", "--csv", name + ".csv"});
@@ -138,8 +138,7 @@ TEST(Usage, AnOutputNobodyCanHaveIsWrongUsageAndCut) {
 }
 
 TEST(Usage, WhatIsReadIsCutInMessages) {
-    const std::string name = "\x1b[31m\n" + std::string(5000, 'x'),
-                      trace = (captured_box() / "trace").string();
+    const std::string name = "\x1b[31m\n" + std::string(5000, 'x'), trace = box_trace();
     expect_cut(bad_usage, {name});
     expect_cut(bad_usage, {"info", name});
     expect_cut(bad_data, {"info", name + ".json"});

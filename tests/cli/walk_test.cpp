@@ -153,7 +153,7 @@ TEST_F(Walk, TheColumnsFolderIsNoPlaceForTheTrace) {
 
 TEST(WalkAgain, InEveryStructureTheSamePhotonsAreFound) {
     const Scratch scratch;
-    const std::string from = (captured_box() / "trace").string();
+    const std::string from = box_trace();
     const trace::TraceReader original(from);
     for (const spatial::StructureEntry& entry : spatial::structures()) {
         if (!entry.build || !entry.is_exact) continue;
@@ -193,7 +193,7 @@ TEST(WalkAgain, InEveryStructureTheSamePhotonsAreFound) {
 
 TEST(WalkAgain, ASearchThatIsNotExactSaysWhatItFinds) {
     const Scratch scratch;
-    const std::string from = (captured_box() / "trace").string(), few = (scratch / "few").string(),
+    const std::string from = box_trace(), few = (scratch / "few").string(),
                       many = (scratch / "many").string(), back = (scratch / "back").string();
     EXPECT_THAT(expect_done({"structures"}).out, testing::ContainsRegex("block-hashing +1 +no"));
     const std::string told =
@@ -231,7 +231,7 @@ TEST(WalkAgain, ASearchThatIsNotExactSaysWhatItFinds) {
 
 TEST(WalkAgain, WalksThatTellWhatWasFoundReadPowerOfThatAlone) {
     const Scratch scratch;
-    const std::string from = (captured_box() / "trace").string();
+    const std::string from = box_trace();
     for (const char* spec : {"left-balanced-kd:found=1", "median-kd:leaf=6,found=1",
                              "hashed-grid:cell=6,found=1", "octree:leaf=6,found=1"}) {
         const std::string to = (scratch / spec).string();
@@ -257,7 +257,7 @@ TEST(WalkAgain, WalksThatTellWhatWasFoundReadPowerOfThatAlone) {
 
 TEST(WalkAgain, CandidatesAreColumnsBesideTheSameWalks) {
     const Scratch scratch;
-    const std::string from = (captured_box() / "trace").string();
+    const std::string from = box_trace();
     for (const char* spec : {"left-balanced-stack-free", "midpoint-kd:leaf=6,found=1", "grid:cell=6"}) {
         const std::string plain = (scratch / "plain").string(), to = (scratch / "to").string();
         expect_done({"walk", from, "--structure", spec, "-o", plain, "--force"});
@@ -286,7 +286,7 @@ TEST_F(Walk, CandidatesAreToldOfColumnsToo) {
 
 TEST(WalkAgain, WhatDoesNotFitIsRefused) {
     const Scratch scratch;
-    const std::string from = (captured_box() / "trace").string(), to = (scratch / "t").string();
+    const std::string from = box_trace(), to = (scratch / "t").string();
     expect_refused(bad_usage, {"walk", from, "--rays", "gather", "--candidates", "-o", to},
                    {"--candidates: found --rays"});
     expect_refused(bad_usage, {"walk", from, "--structure", "median", "-o", to},
@@ -310,7 +310,7 @@ TEST(WalkAgain, WhatDoesNotFitIsRefused) {
 TEST(WalkAgain, ADamagedTreeIsRefusedByColumnAndRow) {
     const Scratch scratch;
     const std::string to = (scratch / "t").string();
-    expect_done({"walk", (captured_box() / "trace").string(), "--structure", "midpoint-kd:leaf=9", "-o", to});
+    expect_done({"walk", box_trace(), "--structure", "midpoint-kd:leaf=9", "-o", to});
     trace::TraceReader reader(to);
     const auto children = reader.column<std::uint32_t>("tree_child"),
                begins = reader.column<std::uint32_t>("tree_leaf_begin"),
@@ -344,7 +344,7 @@ TEST(WalkAgain, ADamagedTreeIsRefusedByColumnAndRow) {
 TEST(WalkAgain, DamagedElementsAreRefusedByColumnAndRow) {
     const Scratch scratch;
     const std::string to = (scratch / "t").string();
-    expect_done({"walk", (captured_box() / "trace").string(), "--structure", "grid", "-o", to});
+    expect_done({"walk", box_trace(), "--structure", "grid", "-o", to});
     trace::TraceReader reader(to);
     const auto with = [&](const char* name, std::size_t at, std::uint32_t value, const std::string& command,
                           const std::vector<std::string>& parts) {

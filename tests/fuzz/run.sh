@@ -6,5 +6,5 @@ set -eu
 mkdir -p "$3/found"
 seed=1
 if [ -n "${REGATHER_FUZZ_SECONDS:-}" ]; then seed=0; fi  # libFuzzer's own choice
-exec "$1" -seed="$seed" -max_total_time="${REGATHER_FUZZ_SECONDS:-3}" -timeout=10 -rss_limit_mb=1500 -max_len=65536 \
+exec "$1" -seed="$seed" -max_total_time="${REGATHER_FUZZ_SECONDS:-2}" -timeout=10 -rss_limit_mb=1500 -max_len=65536 \
     -verbosity=0 -artifact_prefix="$3/" "$3/found" "$2"

@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double quarter = 1.5707963267948966;
+constexpr double quarter_turn = 1.5707963267948966;
 
 // A prism over the triangle (-1, -2), (1, -2), (-1, 2) of x and z: the middle of its box is on its slanted
 // side.
@@ -62,7 +62,7 @@ TEST_F(HomePlacing, ALampIsMeasuredFromTheLeftTheFrontAndTheFootOfItsPiece) {
     // 0.25 of 40 cm right of the middle, 0.4 of 20 cm in front of it (down the plan), 0.9 of 10 cm up.
     expect_near(lamp(""), {1.1f, -2.08f, 0.59f});
     // A quarter turn, clockwise on the plan: the front looks to the left, the right side down.
-    expect_near(lamp(fmt::format("angle='{}'", quarter)), {0.92f, -2.1f, 0.59f});
+    expect_near(lamp(fmt::format("angle='{}'", quarter_turn)), {0.92f, -2.1f, 0.59f});
     expect_near(lamp("modelMirrored='true'"), {0.9f, -2.08f, 0.59f});
     expect_near(lamp("modelMirrored='true' angle='0.5'"), {0.87388770f, -2.02226405f, 0.59f});
 }
@@ -76,7 +76,7 @@ TEST_F(HomePlacing, APieceIsPitchedFirstAndRolledThen) {
     // up looks right, and what was right looks down: the front is the right side, 20 cm deep from left to
     // right, 40 cm high, 10 cm from front to back.
     const ImportedScene scene =
-        with_piece(fmt::format("width='40' depth='20' height='10' pitch='{0}' roll='{0}'", quarter));
+        with_piece(fmt::format("width='40' depth='20' height='10' pitch='{0}' roll='{0}'", quarter_turn));
     const trace::Bounds3 front = bounds_of(scene, "face");
     expect_near(front.min, {1.1f, -2.05f, 0.5f});
     expect_near(front.max, {1.1f, -1.95f, 0.9f});
@@ -142,7 +142,7 @@ TEST_F(HomePlacing, ACameraPitchesDownward) {
     expect_near(up.camera.target - up.camera.position, {-0.25934338f, -0.83838664f, 0.47942554f});
     EXPECT_EQ(down.camera.up, (Vec3{0, 0, 1}));
     // Straight down: what is ahead on the plan is up in the picture.
-    const ImportedScene plan = with_observer(quarter);
+    const ImportedScene plan = with_observer(quarter_turn);
     expect_near(plan.camera.target - plan.camera.position, {0, 0, -1});
     expect_near(plan.camera.up, {-0.29552021f, -0.95533649f, 0});
     expect_near(plan.camera_path[0].up, {-std::sin(0.3f - 0.35f), -std::cos(0.3f - 0.35f), 0});

@@ -57,4 +57,11 @@ inline double volume(std::span<const trace::Vec3> vertices, std::span<const Corn
     return sum / 6;
 }
 
+inline std::size_t unpaired_edges(const meshes::Surface& surface) {
+    return unpaired_edges(surface.vertices, surface.triangles);
+}
+inline double volume(const meshes::Surface& surface) {
+    return volume(surface.vertices, surface.triangles);
+}
+
 }  // namespace regather::scenes

@@ -11,7 +11,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string light =
+const std::string lamp =
     R"({"corner": [0, 0, 3], "edge_u": [0, 1, 0], "edge_v": [1, 0, 0], "power": [1, 1, 1]})";
 
 std::string sphere(const std::string& material) {
@@ -36,7 +36,7 @@ TEST(Needs, ADiffuseSceneWithoutLightsNeedsNothing) {
 }
 
 TEST(Needs, ALightOfAreaNeedsShadowRaysOnly) {
-    const Needs needs = needs_of(parse(SceneText{.lights = light}.text()));
+    const Needs needs = needs_of(parse(SceneText{.lights = lamp}.text()));
     EXPECT_TRUE(needs.shadow_rays.needed);
     EXPECT_FALSE(needs.specular_rays.needed);
     EXPECT_FALSE(needs.glossy_lobes.needed);
@@ -61,9 +61,9 @@ TEST(Needs, ACausticNeedsALightAndASpecularSurface) {
                              .text()))
             .caustics;
     };
-    EXPECT_TRUE(caustics(light, "glass").needed);
-    EXPECT_TRUE(caustics(light, "silver").needed);
-    EXPECT_FALSE(caustics(light, "lacquer").needed);
+    EXPECT_TRUE(caustics(lamp, "glass").needed);
+    EXPECT_TRUE(caustics(lamp, "silver").needed);
+    EXPECT_FALSE(caustics(lamp, "lacquer").needed);
     EXPECT_FALSE(caustics("", "glass").needed);
     EXPECT_EQ(caustics("", "glass").reason, "The scene has no light of area whose light could be gathered.");
 }

@@ -14,13 +14,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double volume(const Surface& s) {
-    return scenes::volume(s.vertices, s.triangles);
-}
-std::size_t unpaired_edges(const Surface& s) {
-    return scenes::unpaired_edges(s.vertices, s.triangles);
-}
-
 // Of a regular polygon with n corners on the unit circle.
 double polygon_area(std::uint32_t n) {
     return n / 2.0 * std::sin(2 * pi / n);

@@ -11,20 +11,11 @@
 namespace regather::scenes {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 double area(const Surface& surface) {
     double sum = 0;
     for (const auto& [a, b, c] : surface.triangles)
         sum += triangle_area(surface.vertices[a], surface.vertices[b], surface.vertices[c]);
     return sum;
-}
-
-double volume(const Surface& s) {
-    return scenes::volume(s.vertices, s.triangles);
-}
-std::size_t unpaired_edges(const Surface& s) {
-    return scenes::unpaired_edges(s.vertices, s.triangles);
 }
 
 TEST(Tessellation, AreaOfATriangleIsHalfBaseTimesHeight) {
@@ -113,7 +104,7 @@ TEST(Tessellation, ASphereIsClosedHasNoDegenerateTriangleAndFacesOutward) {
 }
 
 TEST(Tessellation, ASpheresAreaAndVolumeConvergeWithTheSquareOfTheSegments) {
-    const double exact_area = 4 * pi * 4, exact_volume = 4 * pi / 3 * 8;
+    const double exact_area = 4 * std::numbers::pi * 4, exact_volume = 4 * std::numbers::pi / 3 * 8;
     const auto lost_area = [&](std::uint32_t n) { return exact_area - area(tessellate(Sphere{{}, 2, n})); };
     const auto lost_volume = [&](std::uint32_t n) {
         return exact_volume - volume(tessellate(Sphere{{}, 2, n}));

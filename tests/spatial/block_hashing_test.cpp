@@ -25,8 +25,6 @@ namespace {
 using testing::ElementsAre;
 using trace::Region;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 /// Photons whose coordinates no threshold of the table lies between.
 bool share_a_bucket(const BlockHashing& hashing, std::uint32_t table, Vec3 a, Vec3 b) {
     for (int axis = 0; axis < 3; ++axis)

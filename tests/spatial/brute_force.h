@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "trace/photon.h"
 
 namespace regather::spatial {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Smaller numbers first at equal distances.
 inline bool is_nearer(const Neighbor& a, const Neighbor& b) {

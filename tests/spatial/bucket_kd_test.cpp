@@ -13,6 +13,7 @@
 #include "spatial/photons/recording.h"
 #include "spatial/tree_walk.h"
 #include "spatial/walk.h"
+#include "tests/spatial/brute_force.h"
 #include "tests/spatial/photons.h"
 #include "trace/error.h"
 
@@ -22,26 +23,6 @@ namespace {
 using testing::ElementsAre;
 
 constexpr std::array rules{SplitRule::median, SplitRule::midpoint, SplitRule::voxel_volume};
-
-std::vector<std::pair<float, std::uint32_t>> found_in(const NearestSet& set) {
-    std::vector<std::pair<float, std::uint32_t>> list;
-    for (const Neighbor& n : set.nearest_first()) list.emplace_back(n.distance2, n.node);
-    return list;
-}
-
-/// By looking at every photon.
-std::vector<std::pair<float, std::uint32_t>> brute_force(std::span<const Photon> photons, Vec3 point,
-                                                         std::uint32_t k, float radius) {
-    std::vector<std::pair<float, std::uint32_t>> all;
-    for (std::size_t i = 0; i < photons.size(); ++i) {
-        const Vec3 d = point - photons[i].position;
-        if (const float d2 = trace::dot(d, d); d2 <= radius * radius)
-            all.emplace_back(d2, static_cast<std::uint32_t>(i));
-    }
-    std::sort(all.begin(), all.end());
-    all.resize(std::min<std::size_t>(all.size(), k));
-    return all;
-}
 
 struct Recorded {
     std::vector<std::uint32_t> visited;
@@ -64,12 +45,12 @@ TEST(BucketKd, FindsWhatLookingAtEveryPhotonFindsAndItsWalksDecode) {
         const auto decoder = tree.shape().decoder();
         const auto coordinate = [] { return static_cast<float>(*rc::gen::inRange(-4, 12)) * 0.5f; };
         const auto k = *rc::gen::inRange<std::uint32_t>(0, 30);
-        const float radius = *rc::gen::element(std::numeric_limits<float>::infinity(), 1.0f, 0.0f);
+        const float radius = *rc::gen::element(infinity, 1.0f, 0.0f);
         NearestSet found(k, radius);
         Recorded search;
         const Vec3 point{coordinate(), coordinate(), coordinate()};
         nearest(tree, point, found, search);
-        RC_ASSERT(found_in(found) == brute_force(photons, point, k, radius));
+        RC_ASSERT(same(found.nearest_first(), brute_force(photons, point, k, radius)));
         search.recorder.finish();
         const auto [fault, elements] = decoder->decode(search.recorder.bytes());
         RC_ASSERT(fault == WalkFault::none);
@@ -216,9 +197,8 @@ TEST(BucketKd, ManySearchesWalksDecode) {
          {std::pair(SplitRule::median, false), std::pair(SplitRule::median, true),
           std::pair(SplitRule::midpoint, true), std::pair(SplitRule::voxel_volume, false)}) {
         const BucketKd tree(photons, {.rule = rule, .leaf_photons = 8, .radius = 0.05f, .bounds = bounds});
-        const Recording walks = record_walks(tree, points, 50, std::numeric_limits<float>::infinity());
-        const Recording heap =
-            record_walks(PhotonKd(photons), points, 50, std::numeric_limits<float>::infinity());
+        const Recording walks = record_walks(tree, points, 50, infinity);
+        const Recording heap = record_walks(PhotonKd(photons), points, 50, infinity);
         EXPECT_EQ(walks.found_photons, heap.found_photons);
         EXPECT_EQ(walks.walk_bytes.back(), 0u);
         const auto decoder = tree.shape().decoder();
@@ -255,7 +235,7 @@ TEST(BucketKd, DamagedWalksAreToldApart) {
 
 TEST(BucketKd, APhotonNowhereIsRefused) {
     std::vector<Photon> photons = uniform_photons(10);
-    photons[3].position.y = std::numeric_limits<float>::infinity();
+    photons[3].position.y = infinity;
     EXPECT_THROW(BucketKd(photons, {}), trace::DataError);
 }
 

@@ -20,8 +20,6 @@ namespace {
 using testing::ElementsAre;
 using trace::Region;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 /// The k nearest of the photons offered so far, in order.
 class SlowList {
 public:

@@ -25,8 +25,6 @@ namespace {
 using testing::ElementsAre;
 using trace::Region;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 template <class Index>
 class ListedSearchOf : public testing::Test {};
 using Indices = testing::Types<PhotonGrid, HashedGrid, PhotonOctree, PhotonBvh>;

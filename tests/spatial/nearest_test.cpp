@@ -10,10 +10,8 @@
 namespace regather::spatial {
 namespace {
 
-constexpr float infinite = std::numeric_limits<float>::infinity();
-
 std::vector<Neighbor> search(std::span<const Photon> heap, Vec3 point, std::uint32_t k,
-                             float radius = infinite) {
+                             float radius = infinity) {
     NearestSet found(k, radius);
     nearest(PhotonKd(heap), point, found);
     return found.nearest_first();
@@ -23,7 +21,7 @@ TEST(Nearest, EqualsBruteForceNodeForNode) {
     ASSERT_TRUE(rc::check([] {
         const std::vector<Photon> heap = left_balanced(*any_photons(200));
         const int k = *rc::gen::inRange(0, 40);
-        const float radius = *rc::gen::element(0.0f, 1.0f, 3.5f, 50.0f, infinite);
+        const float radius = *rc::gen::element(0.0f, 1.0f, 3.5f, 50.0f, infinity);
         const auto coordinate = [] { return static_cast<float>(*rc::gen::inRange(-4, 12)) * 0.5f; };
         const Vec3 point{coordinate(), coordinate(), coordinate()};
         RC_ASSERT(same(search(heap, point, static_cast<std::uint32_t>(k), radius),
@@ -42,7 +40,7 @@ TEST_P(NearestInCloud, EqualsFlannsExactSearchAndBruteForce) {
         Vec3 point{numbers.uniform(), numbers.uniform(), numbers.uniform()};
         if (q % 2 == 0) point = heap[static_cast<std::size_t>(q) * 50].position;  // on a photon
         const std::vector<Neighbor> ours = search(heap, point, k);
-        ASSERT_TRUE(same(ours, brute_force(heap, point, k, infinite)));
+        ASSERT_TRUE(same(ours, brute_force(heap, point, k, infinity)));
         const std::vector<float> distances2 = flann.nearest_distances2(point, k);
         ASSERT_EQ(distances2.size(), ours.size());
         // Of photons at equal distance FLANN may name another; the distances agree to rounding.
@@ -76,7 +74,7 @@ TEST(Nearest, PointsThatAreNotFiniteFindNothingAndVisitNothing) {
         void far(bool) {}
     } count;
     NearestSet found(10);
-    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), infinite, -infinite}) {
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), infinity, -infinity}) {
         nearest(PhotonKd(heap), {0, bad, 0}, found, count);
         EXPECT_EQ(found.size(), 0u);
     }

@@ -15,8 +15,6 @@
 namespace regather::spatial {
 namespace {
 
-constexpr float infinite = std::numeric_limits<float>::infinity();
-
 std::vector<Neighbor> nearest_first(const Candidates& found) {
     std::vector<Neighbor> list;
     for (std::size_t i = 0; i < found.size(); ++i) list.push_back(found[i]);
@@ -25,7 +23,7 @@ std::vector<Neighbor> nearest_first(const Candidates& found) {
 }
 
 std::vector<Neighbor> search(const PhotonBuckets& tree, Vec3 point, std::uint32_t k,
-                             float radius = infinite) {
+                             float radius = infinity) {
     Candidates found(k, radius);
     nearest(tree, point, found);
     return nearest_first(found);
@@ -35,7 +33,7 @@ TEST(PhotonBuckets, FindWhatBruteForceFindsNodeForNode) {
     ASSERT_TRUE(rc::check([] {
         const std::vector<Photon> photons = *any_photons(400);
         const int k = *rc::gen::inRange(0, 40);
-        const float radius = *rc::gen::element(0.0f, 1.0f, 3.5f, 50.0f, infinite);
+        const float radius = *rc::gen::element(0.0f, 1.0f, 3.5f, 50.0f, infinity);
         const auto coordinate = [] { return static_cast<float>(*rc::gen::inRange(-4, 12)) * 0.5f; };
         const Vec3 point{coordinate(), coordinate(), coordinate()};
         RC_ASSERT(same(search(PhotonBuckets(photons), point, static_cast<std::uint32_t>(k), radius),
@@ -94,7 +92,7 @@ TEST(PhotonBuckets, EverySizeAroundTheShapesOfTheTreeFindsAllItsPhotons) {
             EXPECT_EQ(tree.buckets(), (count + 15) / 16);
             for (const std::size_t k : {std::size_t{1}, count - 1, count, count + 1}) {
                 const auto found = search(tree, {0.1f, 0.9f, 0.4f}, static_cast<std::uint32_t>(k));
-                ASSERT_TRUE(same(found, brute_force(photons, {0.1f, 0.9f, 0.4f}, k, infinite)))
+                ASSERT_TRUE(same(found, brute_force(photons, {0.1f, 0.9f, 0.4f}, k, infinity)))
                     << count << " photons, k " << k;
             }
         }
@@ -140,7 +138,7 @@ TEST(PhotonBuckets, APhotonAtExactlyTheRadiusIsFound) {
 TEST(PhotonBuckets, PointsThatAreNotFiniteFindNothingAndLeaveNothingBehind) {
     const PhotonBuckets tree(uniform_photons(50));
     Candidates found(10);
-    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), infinite, -infinite}) {
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), infinity, -infinity}) {
         nearest(tree, {0, 0, 0}, found);
         EXPECT_EQ(found.size(), 10u);
         nearest(tree, {0, bad, 0}, found);
@@ -152,14 +150,14 @@ TEST(PhotonBuckets, PointsThatAreNotFiniteFindNothingAndLeaveNothingBehind) {
 TEST(PhotonBuckets, DistancesThatOverflowAreTiesAtInfinity) {
     const std::vector<Photon> photons = left_balanced(photons_on_a_line(std::vector<float>(200, 2e19f)));
     const std::vector<Neighbor> found = search(PhotonBuckets(photons), {-2e19f, 0, 0}, 20);
-    ASSERT_TRUE(same(found, brute_force(photons, {-2e19f, 0, 0}, 20, infinite)));
+    ASSERT_TRUE(same(found, brute_force(photons, {-2e19f, 0, 0}, 20, infinity)));
     EXPECT_EQ(found.size(), 20u);
-    EXPECT_EQ(found[0].distance2, infinite);
+    EXPECT_EQ(found[0].distance2, infinity);
 }
 
 TEST(PhotonBuckets, APhotonThatIsNotFiniteIsRefused) {
     std::vector<Photon> photons = uniform_photons(5);
-    photons[3].position.y = infinite;
+    photons[3].position.y = infinity;
     EXPECT_THROW(PhotonBuckets{photons}, trace::DataError);
 }
 

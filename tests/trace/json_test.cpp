@@ -11,7 +11,7 @@
 namespace regather::trace {
 namespace {
 
-std::string refusal(std::string_view text) {
+std::string json_refusal(std::string_view text) {
     try {
         parse_json(text, "x.json");
     } catch (const DataError& error) {
@@ -111,11 +111,12 @@ TEST(Json, OtherSyntaxIsRefusedInOurWords) {
          "line 2, column 17: found the key \"a\" a second time, expected each key once in an object"},
     };
     for (const auto& [text, message] : cases)
-        EXPECT_EQ(refusal(text), "x.json: " + std::string(message)) << text;
+        EXPECT_EQ(json_refusal(text), "x.json: " + std::string(message)) << text;
     // \u0061 is an a.
-    EXPECT_NE(refusal(R"({"a": 1, "\u0061": 2})").find("the key \"a\" a second time"), std::string::npos);
+    EXPECT_NE(json_refusal(R"({"a": 1, "\u0061": 2})").find("the key \"a\" a second time"),
+              std::string::npos);
     for (const char* const text : {R"(["\ud800"])", R"(["\ud800\u0041"])", R"(["\udc00"])", R"(["\u12"])"})
-        EXPECT_NE(refusal(text).find("surrogates in pairs"), std::string::npos) << refusal(text);
+        EXPECT_NE(json_refusal(text).find("surrogates in pairs"), std::string::npos) << json_refusal(text);
 }
 
 TEST(Json, AKeyIsFoundASecondTimeAmongManyToo) {
@@ -123,7 +124,8 @@ TEST(Json, AKeyIsFoundASecondTimeAmongManyToo) {
     for (int i = 0; i < 100; ++i) text += "\"k" + std::to_string(i) + "\": 1, ";
     EXPECT_EQ(parse_json(text + "\"last\": 1}", "x").members()->size(), 101u);
     for (const char* const again : {"k3", "k16", "k17", "k99"})
-        EXPECT_NE(refusal(text + "\"" + again + "\": 1}").find("a second time"), std::string::npos) << again;
+        EXPECT_NE(json_refusal(text + "\"" + again + "\": 1}").find("a second time"), std::string::npos)
+            << again;
 }
 
 TEST(Json, DepthIsLimited) {
@@ -137,15 +139,15 @@ TEST(Json, DepthIsLimited) {
     };
     EXPECT_EQ(parse_json(nested(64, "[", "", "]"), "x").list()->size(), 1u);
     const std::string too_deep = "found objects or lists 65 deep, expected at most 64";
-    EXPECT_EQ(refusal(nested(65, "[", "", "]")), "x.json: line 1, column 65: " + too_deep);
-    EXPECT_EQ(refusal(nested(65, "{\"a\":", "1", "}")), "x.json: line 1, column 321: " + too_deep);
-    EXPECT_EQ(refusal(nested(1'000'000, "[", "", "]")), "x.json: line 1, column 65: " + too_deep);
-    EXPECT_EQ(refusal(std::string(1'000'000, '[')), "x.json: line 1, column 65: " + too_deep);
+    EXPECT_EQ(json_refusal(nested(65, "[", "", "]")), "x.json: line 1, column 65: " + too_deep);
+    EXPECT_EQ(json_refusal(nested(65, "{\"a\":", "1", "}")), "x.json: line 1, column 321: " + too_deep);
+    EXPECT_EQ(json_refusal(nested(1'000'000, "[", "", "]")), "x.json: line 1, column 65: " + too_deep);
+    EXPECT_EQ(json_refusal(std::string(1'000'000, '[')), "x.json: line 1, column 65: " + too_deep);
 }
 
 TEST(Json, AByteOrderMarkIsPassedOver) {
     EXPECT_EQ(*parse_json("\xef\xbb\xbf[7]", "x").list()->at(0).whole(), 7u);
-    EXPECT_EQ(refusal("\xef\xbb[7]"), "x.json: line 1, column 1: found '\\xef', expected a value");
+    EXPECT_EQ(json_refusal("\xef\xbb[7]"), "x.json: line 1, column 1: found '\\xef', expected a value");
 }
 
 TEST(Json, IsWrittenOverLinesOrOnOne) {
@@ -221,7 +223,7 @@ RC_GTEST_PROP(Json, EveryPartOfAFileIsRefused, ()) {
     json["a"] = *any_json(1);
     const std::string text = json.dump();
     const auto length = *rc::gen::inRange<std::size_t>(0, text.size());
-    RC_ASSERT(refusal(text.substr(0, length)).starts_with("x.json: line 1, column "));
+    RC_ASSERT(json_refusal(text.substr(0, length)).starts_with("x.json: line 1, column "));
 }
 
 }  // namespace

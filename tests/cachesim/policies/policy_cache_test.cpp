@@ -16,10 +16,10 @@ namespace {
 using trace::Region;
 
 /// One set, drawn after every access: the letters of the lines that its ways hold, way 0 first; * is dirty.
-class Drawn {
+class DrawnSet {
 public:
-    Drawn(Policy policy, std::uint32_t ways, WritePolicy write = WritePolicy::back,
-          WriteMiss write_miss = WriteMiss::allocate)
+    DrawnSet(Policy policy, std::uint32_t ways, WritePolicy write = WritePolicy::back,
+             WriteMiss write_miss = WriteMiss::allocate)
         : cache_({{ways * 64u, 64, ways}, policy, write, write_miss, SetIndex::modulo, 1}) {}
 
     /// A small letter writes. "h" or "m", and the set.
@@ -47,13 +47,13 @@ private:
 };
 
 std::uint64_t misses(Policy policy, std::uint32_t ways, const std::string& references) {
-    Drawn set(policy, ways);
+    DrawnSet set(policy, ways);
     for (const char reference : references) set(static_cast<char>('A' + (reference - '0')));
     return set.cache().total().misses;
 }
 
 TEST(PolicyCache, LruReplacesTheLineUsedLongestAgo) {
-    Drawn set(Policy::lru, 3);     //           used last ... longest ago
+    DrawnSet set(Policy::lru, 3);  //           used last ... longest ago
     EXPECT_EQ(set('A'), "m A");    //           A
     EXPECT_EQ(set('B'), "m AB");   //           B A
     EXPECT_EQ(set('C'), "m ABC");  //           C B A
@@ -65,19 +65,19 @@ TEST(PolicyCache, LruReplacesTheLineUsedLongestAgo) {
 }
 
 TEST(PolicyCache, FifoReplacesTheLineFetchedLongestAgo) {
-    Drawn set(Policy::fifo, 3);    //           fetched last ... longest ago
-    EXPECT_EQ(set('A'), "m A");    //           A
-    EXPECT_EQ(set('B'), "m AB");   //           B A
-    EXPECT_EQ(set('C'), "m ABC");  //           C B A
-    EXPECT_EQ(set('A'), "h ABC");  //           C B A    a hit changes nothing
-    EXPECT_EQ(set('D'), "m DBC");  // A goes    D C B
-    EXPECT_EQ(set('B'), "h DBC");  //           D C B
-    EXPECT_EQ(set('A'), "m DAC");  // B goes    A D C
-    EXPECT_EQ(set('E'), "m DAE");  // C goes    E A D
+    DrawnSet set(Policy::fifo, 3);  //           fetched last ... longest ago
+    EXPECT_EQ(set('A'), "m A");     //           A
+    EXPECT_EQ(set('B'), "m AB");    //           B A
+    EXPECT_EQ(set('C'), "m ABC");   //           C B A
+    EXPECT_EQ(set('A'), "h ABC");   //           C B A    a hit changes nothing
+    EXPECT_EQ(set('D'), "m DBC");   // A goes    D C B
+    EXPECT_EQ(set('B'), "h DBC");   //           D C B
+    EXPECT_EQ(set('A'), "m DAC");   // B goes    A D C
+    EXPECT_EQ(set('E'), "m DAE");   // C goes    E A D
 }
 
 TEST(PolicyCache, PlruFollowsTheBitsOfItsTree) {
-    Drawn set(Policy::plru, 4);     //           root   ways 0|1   ways 2|3     where the bits point
+    DrawnSet set(Policy::plru, 4);  //           root   ways 0|1   ways 2|3     where the bits point
     EXPECT_EQ(set('A'), "m A");     //           right  1          2
     EXPECT_EQ(set('B'), "m AB");    //           right  0          2
     EXPECT_EQ(set('C'), "m ABC");   //           left   0          3
@@ -92,23 +92,23 @@ TEST(PolicyCache, PlruFollowsTheBitsOfItsTree) {
 
 /// The mixed access pattern that the paper explains srrip with: A is used again and survives a scan of B's.
 TEST(PolicyCache, SrripKeepsReusedLinesThroughAScan) {
-    Drawn set(Policy::srrip, 4);    //                                  predictions of ways 0 1 2 3
-    EXPECT_EQ(set('A'), "m A");     //                                  2 3 3 3
-    EXPECT_EQ(set('B'), "m AB");    //                                  2 2 3 3
-    EXPECT_EQ(set('B'), "h AB");    //                                  2 0 3 3
-    EXPECT_EQ(set('A'), "h AB");    //                                  0 0 3 3
-    EXPECT_EQ(set('P'), "m ABP");   //                                  0 0 2 3
-    EXPECT_EQ(set('Q'), "m ABPQ");  //                                  0 0 2 2
-    EXPECT_EQ(set('R'), "m ABRQ");  // all count up to 1 1 3 3, P goes  1 1 2 3
-    EXPECT_EQ(set('S'), "m ABRS");  // Q goes                           1 1 2 2
-    EXPECT_EQ(set('A'), "h ABRS");  //                                  0 1 2 2
-    EXPECT_EQ(set('B'), "h ABRS");  //                                  0 0 2 2
+    DrawnSet set(Policy::srrip, 4);  //                                  predictions of ways 0 1 2 3
+    EXPECT_EQ(set('A'), "m A");      //                                  2 3 3 3
+    EXPECT_EQ(set('B'), "m AB");     //                                  2 2 3 3
+    EXPECT_EQ(set('B'), "h AB");     //                                  2 0 3 3
+    EXPECT_EQ(set('A'), "h AB");     //                                  0 0 3 3
+    EXPECT_EQ(set('P'), "m ABP");    //                                  0 0 2 3
+    EXPECT_EQ(set('Q'), "m ABPQ");   //                                  0 0 2 2
+    EXPECT_EQ(set('R'), "m ABRQ");   // all count up to 1 1 3 3, P goes  1 1 2 3
+    EXPECT_EQ(set('S'), "m ABRS");   // Q goes                           1 1 2 2
+    EXPECT_EQ(set('A'), "h ABRS");   //                                  0 1 2 2
+    EXPECT_EQ(set('B'), "h ABRS");   //                                  0 0 2 2
     EXPECT_EQ(misses(Policy::lru, 4, "01102345"), 6u);
     EXPECT_EQ(misses(Policy::lru, 4, "0110234501"), 8u);  // lru has lost both
 }
 
 TEST(PolicyCache, SrripWithoutADistantLineCountsUpUntilThereIsOne) {
-    Drawn set(Policy::srrip, 2);
+    DrawnSet set(Policy::srrip, 2);
     set('A'), set('B'), set('A');  //                                 0 2
     EXPECT_EQ(set('B'), "h AB");   //                                 0 0
     EXPECT_EQ(set('C'), "m CB");   // three times up: 3 3, A goes     2 3
@@ -175,7 +175,7 @@ TEST(PolicyCache, EveryPolicyHitsAlikeOnUniformAccesses) {
 }
 
 TEST(PolicyCache, WritesBackWhatWasWritten) {
-    Drawn set(Policy::lru, 2);
+    DrawnSet set(Policy::lru, 2);
     EXPECT_EQ(set('a'), "m A*");
     EXPECT_EQ(set('B'), "m A*B");
     EXPECT_EQ(set('A'), "h A*B");
@@ -187,7 +187,7 @@ TEST(PolicyCache, WritesBackWhatWasWritten) {
 }
 
 TEST(PolicyCache, WriteThroughPassesEveryWriteAndKeepsLinesClean) {
-    Drawn set(Policy::lru, 2, WritePolicy::through);
+    DrawnSet set(Policy::lru, 2, WritePolicy::through);
     EXPECT_EQ(set('a'), "m A");  // fetched, 4 bytes pass
     EXPECT_EQ(set('a'), "h A");  // 4 bytes pass
     EXPECT_EQ(set('B'), "m AB");
@@ -198,7 +198,7 @@ TEST(PolicyCache, WriteThroughPassesEveryWriteAndKeepsLinesClean) {
 }
 
 TEST(PolicyCache, NoAllocatePassesWritesThatMiss) {
-    Drawn back(Policy::lru, 2, WritePolicy::back, WriteMiss::no_allocate);
+    DrawnSet back(Policy::lru, 2, WritePolicy::back, WriteMiss::no_allocate);
     EXPECT_EQ(back('a'), "m ");  // 4 bytes pass
     EXPECT_EQ(back('A'), "m A");
     EXPECT_EQ(back('a'), "h A*");
@@ -206,7 +206,7 @@ TEST(PolicyCache, NoAllocatePassesWritesThatMiss) {
     back.cache().flush();          // A is written back
     EXPECT_EQ(back.cache().total(), (PolicyStats{4, 3, 1, 1, 2, 8}));
 
-    Drawn through(Policy::lru, 2, WritePolicy::through, WriteMiss::no_allocate);
+    DrawnSet through(Policy::lru, 2, WritePolicy::through, WriteMiss::no_allocate);
     EXPECT_EQ(through('a'), "m ");
     EXPECT_EQ(through('A'), "m A");
     EXPECT_EQ(through('a'), "h A");

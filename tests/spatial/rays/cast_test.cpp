@@ -24,9 +24,7 @@ namespace {
 
 using trace::Vec3;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
-RayBvh tree_of(const Soup& soup) {
+RayBvh ray_bvh_of(const Soup& soup) {
     return RayBvh(soup.vertices, soup.triangles);
 }
 
@@ -40,7 +38,7 @@ Vec3 direction_of(std::mt19937& random) {
 // --- the rule, triangle by triangle
 // ---------------------------------------------------------------------------
 
-/// Where one triangle is met by the paper's rule (sheared corners as floats, exact signs), or infinity.
+/// Where one triangle is met by the paper's rule (sheared corners as floats, exact signs), or endless.
 float distance_by_the_rule(const std::array<Vec3, 3>& corners, const Ray& ray) {
     const Vec3 size{std::fabs(ray.direction.x), std::fabs(ray.direction.y), std::fabs(ray.direction.z)};
     const int z = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -55,8 +53,8 @@ float distance_by_the_rule(const std::array<Vec3, 3>& corners, const Ray& ray) {
     }
     const double u = px[1] * py[2] - py[1] * px[2], v = px[2] * py[0] - py[2] * px[0],
                  w = px[0] * py[1] - py[0] * px[1];
-    if (std::min({u, v, w}) < 0 && std::max({u, v, w}) > 0) return infinity;
-    if (u == 0 && v == 0 && w == 0) return infinity;
+    if (std::min({u, v, w}) < 0 && std::max({u, v, w}) > 0) return endless;
+    if (u == 0 && v == 0 && w == 0) return endless;
     return float((u * pz[0] + v * pz[1] + w * pz[2]) / ((u + v + w) * double(ray.direction[z])));
 }
 
@@ -66,8 +64,7 @@ std::pair<float, std::uint32_t> closest_by_the_rule(const Soup& soup, const Ray&
     for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
         const std::pair found{
             distance_by_the_rule({soup.corner(t, 0), soup.corner(t, 1), soup.corner(t, 2)}, ray), t};
-        if (found.first > ray.nearest && found.first <= ray.farthest && found.first < infinity &&
-            found < best)
+        if (found.first > ray.nearest && found.first <= ray.farthest && found.first < endless && found < best)
             best = found;
     }
     return best;
@@ -113,7 +110,7 @@ Soup grid(int n) {
 TEST(Cast, FindsWhatTheRuleFindsInASoup) {
     for (const float size : {0.01f, 0.1f, 1.0f}) {
         const Soup soup = random_soup(600, size, 1);
-        const RayBvh tree = tree_of(soup);
+        const RayBvh tree = ray_bvh_of(soup);
         std::mt19937 random(2);
         for (int i = 0; i < 1500; ++i) {
             const Vec3 from = uniform3(random) * 3 - Vec3{1, 1, 1};
@@ -127,7 +124,7 @@ TEST(Cast, FindsWhatTheRuleFindsInASoup) {
 // components that are 0 and -0, from origins on the planes of boxes.
 TEST(Cast, FindsWhatTheRuleFindsOnAGrid) {
     const Soup soup = grid(4);
-    const RayBvh tree = tree_of(soup);
+    const RayBvh tree = ray_bvh_of(soup);
     std::mt19937 random(3);
     for (int i = 0; i < 6000; ++i) {
         Vec3 from, to;
@@ -154,7 +151,7 @@ TEST(Cast, TheSequenceOfTrianglesDecidesTiesOnly) {
     for (std::size_t t = order.size() - 1; t > 0; --t) std::swap(order[t], order[random() % (t + 1)]);
     Soup shuffled = soup;
     for (std::size_t t = 0; t < order.size(); ++t) shuffled.triangles[t] = soup.triangles[order[t]];
-    const RayBvh tree = tree_of(soup), other = tree_of(shuffled);
+    const RayBvh tree = ray_bvh_of(soup), other = ray_bvh_of(shuffled);
     for (int i = 0; i < 3000; ++i) {
         const Vec3 from = uniform3(random) * 3;
         const Vec3 to{float(random() % 4), float(random() % 4), float(random() % 4)};
@@ -198,15 +195,15 @@ Oracle oracle(const Soup& soup, std::uint32_t t, const Ray& ray) {
 
 TEST(Cast, AgreesWithDoublePrecisionOnClearCases) {
     const Soup soup = random_soup(1000, 0.2f, 5);
-    const RayBvh tree = tree_of(soup);
+    const RayBvh tree = ray_bvh_of(soup);
     std::mt19937 random(6);
     int clear = 0, hits = 0;
     constexpr int rays = 3000;
     for (int i = 0; i < rays; ++i) {
         const Ray ray{uniform3(random), direction_of(random)};
         // A case is clear when nothing near an edge, near the origin or near the same distance decides it.
-        std::pair<double, std::uint32_t> best{infinity, Meeting::nothing};
-        double next = infinity;
+        std::pair<double, std::uint32_t> best{endless, Meeting::nothing};
+        double next = endless;
         bool sure = true;
         for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
             const Oracle found = oracle(soup, t, ray);
@@ -291,7 +288,7 @@ private:
 // that passes an edge within rounding may hit or miss the triangle there: fewer than 1 in 1000.
 TEST(Cast, AgreesWithEmbree) {
     const Soup soup = random_soup(20'000, 0.1f, 7);
-    const RayBvh tree = tree_of(soup);
+    const RayBvh tree = ray_bvh_of(soup);
     const EmbreeScene embree(soup);
     std::mt19937 random(8);
     int other = 0, hits = 0;
@@ -361,7 +358,7 @@ RC_GTEST_PROP(Cast, NoRayLeavesAClosedSurface, ()) {
     const float scale = std::ldexp(1.0f, *rc::gen::inRange(-50, 50));
     const Closed closed =
         closed_surface(rings, sectors, stretch, part() * 6, scale, *rc::gen::arbitrary<unsigned>());
-    const RayBvh tree = tree_of(closed.soup);
+    const RayBvh tree = ray_bvh_of(closed.soup);
     std::mt19937 random(*rc::gen::arbitrary<unsigned>());
     // The surface is turned, so it may be thin along any direction: this near its middle is within.
     const float within = std::min({stretch.x, stretch.y, stretch.z}) * 1e-3f * scale;
@@ -382,12 +379,12 @@ RC_GTEST_PROP(Cast, NoRayLeavesAClosedSurface, ()) {
 
 TEST(Cast, PowersOfTwoScaleDistancesExactly) {
     const Soup soup = random_soup(300, 0.3f, 9);
-    const RayBvh tree = tree_of(soup);
+    const RayBvh tree = ray_bvh_of(soup);
     for (const int power : {-100, -60, -20, 20, 55}) {
         const float scale = std::ldexp(1.0f, power);
         Soup scaled = soup;
         for (Vec3& v : scaled.vertices) v = v * scale;
-        const RayBvh other = tree_of(scaled);
+        const RayBvh other = ray_bvh_of(scaled);
         std::mt19937 random(10);
         for (int i = 0; i < 500; ++i) {
             const Vec3 from = uniform3(random), direction = direction_of(random);
@@ -400,14 +397,14 @@ TEST(Cast, PowersOfTwoScaleDistancesExactly) {
 
 TEST(Cast, NothingIsMetInAnEmptyScene) {
     EXPECT_FALSE(closest(RayBvh(), {{}, {0, 0, 1}}).found());
-    EXPECT_FALSE(occluded(tree_of({}), {{}, {0, 0, 1}}));
+    EXPECT_FALSE(occluded(ray_bvh_of({}), {{}, {0, 0, 1}}));
 }
 
 // By hand: the triangle's plane is z = 2, the ray passes it at (1/4, 1/2), so the weights are 1/4, 1/4, 1/2.
 TEST(Cast, OneTriangleIsMetWhereGeometrySays) {
     Soup soup;
     soup.add({0, 0, 2}, {1, 0, 2}, {0, 1, 2});
-    const RayBvh tree = tree_of(soup);
+    const RayBvh tree = ray_bvh_of(soup);
     ASSERT_TRUE(tree.nodes().empty());
     for (const float side : {1.0f, -1.0f}) {
         const Meeting met = closest(tree, {{0.25f, 0.5f, 2 - 3 * side}, {0, 0, side}});
@@ -428,7 +425,7 @@ TEST(Cast, OneTriangleIsMetWhereGeometrySays) {
 TEST(Cast, OfManyAtOnePlaceTheFirstIsMet) {
     Soup soup = random_soup(100, 0.1f, 11);
     for (int i = 0; i < 100'000; ++i) soup.add({-1, -1, 3}, {3, -1, 3}, {-1, 3, 3});
-    const RayBvh tree = tree_of(soup);
+    const RayBvh tree = ray_bvh_of(soup);
     for (int i = 0; i < 20; ++i) {
         const Ray ray{{0.05f * float(i), 0.4f, 2}, {0, 0.1f, 1}};
         const Meeting met = closest(tree, ray);
@@ -443,11 +440,11 @@ TEST(Cast, TrianglesWithoutAreaAreNeverMet) {
     soup.add({0, 0, 1}, {0, 0, 1}, {0, 0, 1});
     soup.add({-1, 0, 1}, {1, 0, 1}, {1, 0, 1});
     soup.add({-1, -2, 1}, {1, 2, 1}, {0.5f, 1, 1});
-    const RayBvh none = tree_of(soup);
+    const RayBvh none = ray_bvh_of(soup);
     EXPECT_TRUE(none.empty());
     EXPECT_FALSE(closest(none, {{}, {0, 0, 1}}).found());
     soup.add({-1, -1, 2}, {1, -1, 2}, {0, 3, 2});
-    const RayBvh one = tree_of(soup);
+    const RayBvh one = ray_bvh_of(soup);
     EXPECT_EQ(closest(one, {{}, {0, 0, 1}}).triangle, 3u);
     EXPECT_EQ(closest(one, {{}, {0, 0, 1}}).distance, 2);
 }
@@ -455,7 +452,7 @@ TEST(Cast, TrianglesWithoutAreaAreNeverMet) {
 // Far origins, directions of any length, components next to nothing.
 TEST(Cast, ExtremeRaysFollowTheRule) {
     const Soup soup = random_soup(400, 0.5f, 12);
-    const RayBvh tree = tree_of(soup);
+    const RayBvh tree = ray_bvh_of(soup);
     std::mt19937 random(13);
     for (int i = 0; i < 2000; ++i) {
         const float away = std::ldexp(1.0f, int(random() % 60) - 30);
@@ -480,7 +477,7 @@ struct Heard {
 
 TEST(Cast, AListenerHearsEachStepOnceAfterItsParent) {
     const Soup soup = random_soup(3000, 0.05f, 14);
-    const RayBvh tree = tree_of(soup);
+    const RayBvh tree = ray_bvh_of(soup);
     std::map<std::uint32_t, std::uint32_t> parent;
     for (std::uint32_t n = 0; n < tree.nodes().size(); ++n)
         for (const std::uint32_t child : tree.nodes()[n].children)
@@ -522,7 +519,7 @@ TEST(Cast, WhatLiesBehindTheHitIsNotVisited) {
             soup.add(at, at + Vec3{1, 0, 0}, at + Vec3{1, 1, 0});
             soup.add(at, at + Vec3{1, 1, 0}, at + Vec3{0, 1, 0});
         }
-    const RayBvh tree = tree_of(soup);
+    const RayBvh tree = ray_bvh_of(soup);
     for (const float side : {1.0f, -1.0f}) {
         Heard heard;
         const Meeting met = closest(tree, {{1.3f, 1.6f, 5 - 5 * side}, {0, 0, side}}, heard);

@@ -23,8 +23,6 @@ using trace::Vec3;
 using Bytes = std::vector<std::uint8_t>;
 using Elements = std::vector<std::uint32_t>;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 /// A hierarchy and its shape.
 struct Built {
     RayBvh bvh;
@@ -80,7 +78,7 @@ Ray any_ray() {
     Ray ray{.origin = {coordinate(), coordinate(), coordinate()}, .direction = {}};
     ray.direction = Vec3{coordinate(), coordinate(), coordinate()} - ray.origin;
     if (ray.direction == Vec3{}) ray.direction = {0.5f, 0, -1};
-    ray.farthest = *rc::gen::element(infinity, 1.0f, 0.25f);
+    ray.farthest = *rc::gen::element(endless, 1.0f, 0.25f);
     return ray;
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -11,6 +12,8 @@
 #include "trace/vec.h"
 
 namespace regather::spatial {
+
+constexpr float endless = std::numeric_limits<float>::infinity();  ///< As far as a ray goes.
 
 struct Soup {
     std::vector<trace::Vec3> vertices;

@@ -23,8 +23,6 @@ using trace::Bounds3;
 using trace::Vec3;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 TriangleKd tree_of(const Soup& soup, const TriangleKdConfig& config = {}) {
     return TriangleKd(soup.vertices, soup.triangles, config);
 }
@@ -69,9 +67,9 @@ TEST(TriangleKd, APointOnAPlaneLiesInTheLowerLeafAndOneOutsideInTheNearest) {
     EXPECT_EQ(leaf_at(5), 3u);
     EXPECT_EQ(leaf_at(7), 4u);
     EXPECT_EQ(leaf_at(-100), 0u);
-    EXPECT_EQ(leaf_at(-infinity), 0u);
+    EXPECT_EQ(leaf_at(-endless), 0u);
     EXPECT_EQ(leaf_at(100), 4u);
-    EXPECT_EQ(leaf_at(infinity), 4u);
+    EXPECT_EQ(leaf_at(endless), 4u);
     EXPECT_EQ(tree.leaf_of({3.5f, -9, 99}), 2u);
     EXPECT_EQ(leaf_at(nan), 0u);
     EXPECT_EQ(tree.leaf_of({6, nan, 0}), 0u);
@@ -279,7 +277,7 @@ TEST(TriangleKd, RefusesBadTrianglesByNumber) {
     soup.vertices[10].y = nan;
     expect_refused<trace::DataError>(
         [&] { tree_of(soup); }, "triangle 3: found nan in vertex 10, expected a number from -1e+18 to 1e+18");
-    soup.vertices[10].y = -infinity;
+    soup.vertices[10].y = -endless;
     expect_refused<trace::DataError>(
         [&] { tree_of(soup); },
         "triangle 3: found -inf in vertex 10, expected a number from -1e+18 to 1e+18");
