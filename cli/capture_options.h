@@ -1,7 +1,7 @@
 // cli/capture_options.h -- what a capture can be asked for, as options of a command.
 #pragma once
 #include "cli/command.h"
-#include "experiment/capture_options.h"
+#include "experiment/traces/capture_options.h"
 
 namespace regather::cli {
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "cachesim/cache_list.h"
-#include "experiment/capture_job.h"
+#include "experiment/traces/capture_job.h"
 #include "experiment/frames.h"
 #include "experiment/measurement.h"
 #include "reorder/shared_library.h"

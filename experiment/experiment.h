@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cachesim/cache.h"
-#include "experiment/capture_options.h"
+#include "experiment/traces/capture_options.h"
 #include "experiment/measurement.h"
 #include "reorder/catalogue.h"
 

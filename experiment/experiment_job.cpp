@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "experiment/parts.h"
-#include "experiment/structure_job.h"
+#include "experiment/traces/structure_job.h"
 #include "results/benefit.h"
 #include "trace/folder.h"
 

@@ -1,5 +1,5 @@
 // experiment/experiment_job.h -- an experiment from its file to its rows: OUT as a capture fills it
-// (experiment/capture_job.h), and of each frame the walks in other structures in OUT/walks/ or
+// (experiment/traces/capture_job.h), and of each frame the walks in other structures in OUT/walks/ or
 // OUT/frame-0005/walks/, and the finished parts in OUT/parts/ or OUT/frame-0005/parts/.
 #pragma once
 #include <filesystem>
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/capture_job.h"
+#include "experiment/traces/capture_job.h"
 #include "experiment/experiment.h"
 #include "experiment/progress.h"
 #include "results/row.h"

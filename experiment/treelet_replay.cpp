@@ -10,7 +10,6 @@
 #include "replay/line_stream.h"
 #include "replay/system_stream.h"
 #include "trace/error.h"
-#include "trace/range.h"
 #include "trace/size.h"
 #include "trace/text.h"
 
@@ -39,7 +38,9 @@ std::vector<replay::TreeletConfig> treelet_configs(std::span<const std::string> 
     std::set<std::pair<std::uint64_t, std::uint32_t>> seen;
     for (const std::string& size : sizes) {
         const std::uint64_t bytes = trace::parse_size(size);
-        trace::require_range("--treelets", trace::shown(size), bytes, 1, most_treelet_bytes);
+        if (bytes < 1 || bytes > most_treelet_bytes)
+            throw trace::UsageError(fmt::format("--treelets: found {}, expected 1 to {} bytes",
+                                                trace::shown(size), most_treelet_bytes));
         for (const std::uint32_t most : rays) {
             if (!seen.emplace(bytes, most).second)
                 throw trace::UsageError(

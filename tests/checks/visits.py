@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""visits.py SOURCE BINARY FOLDER: runs examples/kd_tree_visits.py and what docs/bringing_walks.md does with its columns.
+"""visits.py SOURCE BINARY FOLDER: runs examples/kd_tree_visits.py and examples/grid_visits.py, and what docs/bringing_walks.md does with
+their columns.
 
-The visits must lead to the neighbours that SciPy's own search finds, and the trace must have them all. By Debian's Python, which has
+The visits must lead to the neighbours that SciPy's own search finds, or to all points within the radius, and the traces must have them all. By Debian's Python, which has
 Debian's NumPy and SciPy; exit code 77 without them.
 """
 import json
@@ -34,6 +35,14 @@ for visited, found in zip(example["visits"], neighbours):
             seen.update(node.indices)
     assert seen.issuperset(found), "a neighbour that SciPy finds lies in no visited leaf"
 
+sys.argv = ["grid_visits.py", "cells"]
+grid = runpy.run_path(f"{source}/examples/grid_visits.py")
+cells = grid["side"] ** 3
+for visited, point in zip(grid["visits"], grid["queries"]):
+    near = np.flatnonzero(((grid["points"] - point) ** 2).sum(axis=1) <= 0.05**2)
+    assert set(visited).issuperset(cells + near), "a point within the radius lies in no visited cell"
+    assert sum(n < cells for n in visited) in (8, 12, 18, 27), "cells about one: 27, fewer at faces"
+
 page = open(f"{source}/docs/bringing_walks.md", encoding="utf-8").read()
 commands = re.findall(r"^    (regather .*)$", page, re.MULTILINE)
 assert len(commands) >= 3, commands
@@ -43,9 +52,10 @@ for command in commands:
     done = subprocess.run(["bash", "-c", command], env=environment, capture_output=True, text=True)
     assert done.returncode == 0 and not done.stderr, f"{command}: {done.returncode}\n{done.stderr}"
     printed += done.stdout
-trace = json.load(open("walked/trace.json", encoding="utf-8"))
-assert trace["visited_nodes"] == sum(map(len, example["visits"])), trace["visited_nodes"]
-assert trace["structure"] == "visits" and trace["queries"] == len(example["queries"])
+for folder, brought in (("walked", example), ("cells-walked", grid)):
+    trace = json.load(open(f"{folder}/trace.json", encoding="utf-8"))
+    assert trace["visited_nodes"] == sum(map(len, brought["visits"])), trace["visited_nodes"]
+    assert trace["structure"] == "visits" and trace["queries"] == len(brought["queries"])
 # What the page shows of the commands' output is what they print.
 shown = re.search(r"```text\n(.*?)```", page, re.DOTALL).group(1)
 for line in filter(None, map(str.strip, shown.splitlines())):

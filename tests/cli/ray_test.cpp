@@ -238,7 +238,7 @@ TEST(TreeletQueues, OneTreeletIsThePlainOrderAndSmallOnesCost) {
                    {"replay", box_trace(), "--order", "naive", "--treelets", "1K", "--queue", "50"},
                    {"treelets: found walks through left-balanced-kd", "walk --rays"});
     expect_refused(bad_usage, {"replay", gather, "--order", "naive", "--treelets", "0", "--queue", "50"},
-                   {"--treelets: 0 is 0, expected 1 to 1073741824"});
+                   {"--treelets: found 0, expected 1 to 1073741824 bytes"});
     expect_refused(bad_usage, {"replay", gather, "--order", "naive", "--treelets", "1K", "--queue", "0"},
                    {"--queue", "'0'"});
 }

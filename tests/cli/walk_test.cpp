@@ -201,7 +201,10 @@ TEST(WalkAgain, ASearchThatIsNotExactSaysWhatItFinds) {
     expect_done({"walk", few, "--structure", "block-hashing:block=64,found=1", "-o", many});
     expect_done({"walk", few, "--structure", "octree", "-o", back});
     const trace::TraceReader original(from), a(few), b(many), exact(back);
-    for (const std::string& to : {few, many, back}) expect_done({"info", to, "--verify"});
+    for (const std::string& to : {few, many})
+        EXPECT_THAT(expect_done({"info", to, "--verify"}).out,
+                    HasSubstr("same way, and misses as many of the nearest photons\n"));
+    EXPECT_THAT(expect_done({"info", back, "--verify"}).out, HasSubstr("and walks the same way\n"));
     const auto count = [](const trace::TraceReader& trace, const char* key) {
         return *trace.info().counts.find(key)->whole();
     };
@@ -263,7 +266,8 @@ TEST(WalkAgain, CandidatesAreColumnsBesideTheSameWalks) {
         expect_done({"walk", from, "--structure", spec, "-o", plain, "--force"});
         EXPECT_THAT(expect_done({"walk", from, "--structure", spec, "--candidates", "-o", to, "--force"}).out,
                     HasSubstr("photons entered the list a query"));
-        EXPECT_THAT(expect_done({"info", to, "--verify"}).out, HasSubstr("query_candidate_bytes"));
+        EXPECT_THAT(expect_done({"info", to, "--verify"}).out,
+                    testing::AllOf(HasSubstr("query_candidate_bytes"), HasSubstr("same way, with the same candidates\n")));
         const trace::TraceReader without(plain), with(to);
         EXPECT_EQ(with.digests().at("walk"), without.digests().at("walk")) << spec;
         EXPECT_FALSE(without.has("candidate"));

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/visits_job.h"
+#include "experiment/traces/visits_job.h"
 #include "replay/layouts/catalogue.h"
 #include "replay/replay.h"
 #include "replay/walk_store.h"

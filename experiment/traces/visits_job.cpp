@@ -1,4 +1,4 @@
-#include "experiment/visits_job.h"
+#include "experiment/traces/visits_job.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <array>
 #include <numeric>
 
-#include "experiment/brought_queries.h"
+#include "experiment/traces/brought_queries.h"
 #include "spatial/list_walk.h"
 #include "spatial/listed_columns.h"
 #include "spatial/photons/structures.h"

@@ -1,4 +1,4 @@
-#include "experiment/ray_job.h"
+#include "experiment/traces/ray_job.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// experiment/structure_job.h -- the queries of a finished trace searched again in another structure: the same
+// experiment/traces/structure_job.h -- the queries of a finished trace searched again in another structure: the same
 // photons and queries, other walks.
 #pragma once
 #include <filesystem>

@@ -11,7 +11,7 @@
 #include "cli/commands.h"
 #include "cli/interruption.h"
 #include "cli/progress.h"
-#include "experiment/capture_options.h"
+#include "experiment/traces/capture_options.h"
 #include "experiment/reference_job.h"
 
 namespace regather::cli {

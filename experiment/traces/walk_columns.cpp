@@ -1,4 +1,4 @@
-#include "experiment/walk_columns.h"
+#include "experiment/traces/walk_columns.h"
 
 #include <fmt/format.h>
 

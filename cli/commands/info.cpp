@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "replay/verification.h"
+#include "spatial/photons/recall.h"
 #include "scenes/loader.h"
 #include "scenes/needs.h"
 #include "spatial/rays/ray_structures.h"
@@ -25,6 +26,14 @@ std::string searched(const trace::TraceReader& trace) {
     if (trace.has("photon")) return fmt::format("{} photons, k = {}", info.photons, info.k);
     const auto elements = trace.digests().find("element_region");
     return fmt::format("{} elements", elements == trace.digests().end() ? 0 : elements->second.rows);
+}
+
+/// What a search of every query has shown again.
+std::string searched_again(const trace::TraceReader& trace) {
+    std::string text = "; each query was searched again and walks the same way";
+    if (trace.has("candidate")) text += ", with the same candidates";
+    if (trace.info().counts.find(spatial::nearest_found_count)) text += ", and misses as many of the nearest photons";
+    return text;
 }
 
 void print_trace(const std::filesystem::path& folder, bool verify, const Console& console) {
@@ -67,7 +76,7 @@ void print_trace(const std::filesystem::path& folder, bool verify, const Console
     if (!verify) return;
     console.print("verified   checksums, {}, pixels, directions, rays, walks{}\n",
                   trace.has("photon") ? "the order of the tree" : "elements",
-                  verified.searched     ? "; each query was searched again and walks the same way"
+                  verified.searched     ? searched_again(trace)
                   : of_rays             ? "; not cast again: a trace of rays does not hold the triangles"
                   : trace.has("photon") ? "; not searched again: trace.json does not say the radius"
                                         : "; not searched again: the walks were brought");

@@ -1,4 +1,4 @@
-#include "experiment/brought_queries.h"
+#include "experiment/traces/brought_queries.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "experiment/capture_job.h"
+#include "experiment/traces/capture_job.h"
 
 #include <fmt/format.h>
 

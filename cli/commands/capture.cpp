@@ -6,7 +6,7 @@
 #include "cli/commands.h"
 #include "cli/interruption.h"
 #include "cli/progress.h"
-#include "experiment/capture_job.h"
+#include "experiment/traces/capture_job.h"
 
 namespace regather::cli {
 namespace {

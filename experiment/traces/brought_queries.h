@@ -1,4 +1,4 @@
-// experiment/brought_queries.h -- the queries among the columns that somebody brings for a trace: where each
+// experiment/traces/brought_queries.h -- the queries among the columns that somebody brings for a trace: where each
 // is, and whatever else orderings can read of it. docs/trace_format.md.
 #pragma once
 #include <cstdint>

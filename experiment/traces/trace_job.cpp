@@ -1,4 +1,4 @@
-#include "experiment/trace_job.h"
+#include "experiment/traces/trace_job.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "experiment/brought_queries.h"
-#include "experiment/walk_columns.h"
+#include "experiment/traces/brought_queries.h"
+#include "experiment/traces/walk_columns.h"
 #include "spatial/photons/photon_kd.h"
 #include "spatial/photons/structures.h"
 #include "trace/error.h"

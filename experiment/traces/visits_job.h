@@ -1,4 +1,4 @@
-// experiment/visits_job.h -- a trace of whatever another program has walked: columns of its elements and of
+// experiment/traces/visits_job.h -- a trace of whatever another program has walked: columns of its elements and of
 // its queries' visits in, list walks out. docs/bringing_walks.md.
 #pragma once
 #include <cstdint>

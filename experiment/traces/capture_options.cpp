@@ -1,4 +1,4 @@
-#include "experiment/capture_options.h"
+#include "experiment/traces/capture_options.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

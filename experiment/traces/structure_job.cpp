@@ -1,11 +1,11 @@
-#include "experiment/structure_job.h"
+#include "experiment/traces/structure_job.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
-#include "experiment/walk_columns.h"
+#include "experiment/traces/walk_columns.h"
 #include "replay/verification.h"
 #include "spatial/photons/structures.h"
 #include "trace/error.h"

@@ -1,4 +1,4 @@
-// experiment/trace_job.h -- a trace of somebody else's photons and queries: columns in, tree built, every
+// experiment/traces/trace_job.h -- a trace of somebody else's photons and queries: columns in, tree built, every
 // walk recorded.
 #pragma once
 #include <cstdint>
