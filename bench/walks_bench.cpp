@@ -9,6 +9,7 @@
 
 #include "bench/room_walks.h"
 #include "spatial/list_walk.h"
+#include "spatial/photons/block_hashing.h"
 #include "spatial/photons/hashed_grid.h"
 #include "spatial/photons/photon_bvh.h"
 #include "spatial/photons/photon_grid.h"
@@ -41,6 +42,8 @@ const Index& index() {
             return Index(room().heap);
         else if constexpr (std::same_as<Index, spatial::BucketKd>)
             return Index(room().heap, {.rule = spatial::SplitRule::median, .leaf_photons = 8, .radius = 0});
+        else if constexpr (std::same_as<Index, spatial::BlockHashing>)
+            return Index(room().heap, {});
         else
             return Index(room().heap, 8);
     }();
@@ -60,13 +63,20 @@ double search_all(Listener&& listener) {
     return sum;
 }
 
+/// What every search has to find: in an exact structure, what the left-balanced tree's does.
+template <class Index>
+double distances() {
+    constexpr bool is_exact = !std::same_as<Index, spatial::BlockHashing>;
+    return search_all<std::conditional_t<is_exact, spatial::PhotonKd, Index>>(spatial::Unheard());
+}
+
 void rate(benchmark::State& state) {
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points().size()));
 }
 
 template <class Index>
 void search(benchmark::State& state) {
-    const double expected = search_all<spatial::PhotonKd>(spatial::Unheard());
+    const double expected = distances<Index>();
     search_all<Index>(spatial::Unheard());
     for (auto unused : state)
         if (search_all<Index>(spatial::Unheard()) != expected) state.SkipWithError("other photons");
@@ -75,7 +85,7 @@ void search(benchmark::State& state) {
 
 template <class Index, class Walk>
 void record(benchmark::State& state) {
-    const double expected = search_all<spatial::PhotonKd>(spatial::Unheard());
+    const double expected = distances<Index>();
     Walk recorder;
     for (auto unused : state) {
         recorder.clear();
@@ -88,44 +98,70 @@ void record(benchmark::State& state) {
         static_cast<double>(recorder.bytes().size()) / static_cast<double>(points().size());
 }
 
-template <class Index>
+/// The walks of an index's searches, as `Tree` decodes them: a heap's, or the index's own structure.
+template <class Index, class Walk, class Tree = void>
 void decode(benchmark::State& state) {
-    spatial::ListWalkRecorder recorder;
+    Walk recorder;
     std::vector<std::uint32_t> lengths;
     spatial::NearestSet found(k);
     for (const trace::Vec3 point : points()) {
         spatial::nearest(index<Index>(), point, found, recorder);
         lengths.push_back(recorder.finish());
     }
-    const auto decoder = index<Index>().share_structure()->decoder();
-    for (auto unused : state) {
+    const auto decoder = [] {
+        if constexpr (!std::is_void_v<Tree>) {
+            static const Tree tree(bench::photon_count);
+            return tree.decoder();
+        } else if constexpr (std::same_as<Index, spatial::BucketKd>) {
+            return index<Index>().shape().decoder();
+        } else {
+            return index<Index>().share_structure()->decoder();
+        }
+    }();
+    const auto decode_all = [&] {
         std::uint64_t visits = 0, start = 0;
         for (const std::uint32_t length : lengths) {
             visits += decoder->decode(recorder.bytes().subspan(start, length)).elements.size();
             start += length;
         }
-        if (visits != recorder.visited_nodes()) state.SkipWithError("another number of visits");
-    }
-    state.counters["visits/s"] = benchmark::Counter(static_cast<double>(recorder.visited_nodes()),
-                                                    benchmark::Counter::kIsIterationInvariantRate);
+        return visits;
+    };
+    const std::uint64_t expected = decode_all();
+    // Who searches without a stack comes back to parents.
+    const bool as_recorded = expected == recorder.visited_nodes();
+    if (as_recorded == std::same_as<Tree, spatial::StackFree>)
+        state.SkipWithError("another number of visits");
+    for (auto unused : state)
+        if (decode_all() != expected) state.SkipWithError("another number of visits");
+    state.counters["visits/query"] = static_cast<double>(expected) / static_cast<double>(points().size());
+    state.counters["visits/s"] =
+        benchmark::Counter(static_cast<double>(expected), benchmark::Counter::kIsIterationInvariantRate);
 }
 
 BENCHMARK(search<spatial::PhotonKd>)->Unit(benchmark::kMillisecond);
 BENCHMARK(record<spatial::PhotonKd, spatial::WalkRecorder>)->Unit(benchmark::kMillisecond);
+BENCHMARK(decode<spatial::PhotonKd, spatial::WalkRecorder, spatial::LeftBalanced>)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(decode<spatial::PhotonKd, spatial::WalkRecorder, spatial::StackFree>)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(search<spatial::BucketKd>)->Unit(benchmark::kMillisecond);
 BENCHMARK(record<spatial::BucketKd, spatial::WalkRecorder>)->Unit(benchmark::kMillisecond);
+BENCHMARK(decode<spatial::BucketKd, spatial::WalkRecorder>)->Unit(benchmark::kMillisecond);
 BENCHMARK(search<spatial::PhotonGrid>)->Unit(benchmark::kMillisecond);
 BENCHMARK(record<spatial::PhotonGrid, spatial::ListWalkRecorder>)->Unit(benchmark::kMillisecond);
-BENCHMARK(decode<spatial::PhotonGrid>)->Unit(benchmark::kMillisecond);
+BENCHMARK(decode<spatial::PhotonGrid, spatial::ListWalkRecorder>)->Unit(benchmark::kMillisecond);
 BENCHMARK(search<spatial::HashedGrid>)->Unit(benchmark::kMillisecond);
 BENCHMARK(record<spatial::HashedGrid, spatial::ListWalkRecorder>)->Unit(benchmark::kMillisecond);
-BENCHMARK(decode<spatial::HashedGrid>)->Unit(benchmark::kMillisecond);
+BENCHMARK(decode<spatial::HashedGrid, spatial::ListWalkRecorder>)->Unit(benchmark::kMillisecond);
 BENCHMARK(search<spatial::PhotonOctree>)->Unit(benchmark::kMillisecond);
 BENCHMARK(record<spatial::PhotonOctree, spatial::ListWalkRecorder>)->Unit(benchmark::kMillisecond);
-BENCHMARK(decode<spatial::PhotonOctree>)->Unit(benchmark::kMillisecond);
+BENCHMARK(decode<spatial::PhotonOctree, spatial::ListWalkRecorder>)->Unit(benchmark::kMillisecond);
 BENCHMARK(search<spatial::PhotonBvh>)->Unit(benchmark::kMillisecond);
 BENCHMARK(record<spatial::PhotonBvh, spatial::ListWalkRecorder>)->Unit(benchmark::kMillisecond);
-BENCHMARK(decode<spatial::PhotonBvh>)->Unit(benchmark::kMillisecond);
+BENCHMARK(decode<spatial::PhotonBvh, spatial::ListWalkRecorder>)->Unit(benchmark::kMillisecond);
+BENCHMARK(search<spatial::BlockHashing>)->Unit(benchmark::kMillisecond);
+BENCHMARK(record<spatial::BlockHashing, spatial::ListWalkRecorder>)->Unit(benchmark::kMillisecond);
+BENCHMARK(decode<spatial::BlockHashing, spatial::ListWalkRecorder>)->Unit(benchmark::kMillisecond);
 
 /// What is brought: visits that lie in memory. Here the left-balanced tree's, whose elements jump most.
 struct Brought {
