@@ -1,6 +1,6 @@
 #!/bin/sh
 # make.sh REGATHER OUT [PART...]: makes the rows of this folder again, in OUT/results; captures and walks are kept in OUT (20 GB). Parts:
-# capture, trees (every structure), steps (of the octree), scenes (and frames of their paths), family (all LRU caches); all of them
+# capture, trees (every structure), steps (of the octree: leaves, places, ways), scenes (and frames of their paths), family (all LRU caches); all of them
 # when none is named. It runs in OUT, so that the rows' provenance names what lies there.
 set -eu
 regather=$(realpath "$1")
@@ -39,6 +39,12 @@ for part in $parts; do
             replay "octree-leaf-$leaf" room "octree:leaf=$leaf,found=1" --order naive direction-binned+hashed:tile=16 hilbert \
                 --layout depth-first-20 van-emde-boas-12+6
         done
+        replay octree-places room octree:leaf=8,found=1 --order naive direction-binned+hashed:tile=16 hilbert \
+            --layout breadth-first-12+6 depth-first-12+6 hilbert-12+6 morton-12+6 van-emde-boas-12+6:node=4 van-emde-boas-12+6:node=64
+        replay octree-ways room octree:leaf=8,found=1 --order naive direction-binned+hashed:tile=16 hilbert \
+            --layout depth-first-20 van-emde-boas-12+6 --cache 128K:128:1,2,4,8,16,full
+        replay left-balanced-kd-ways room left-balanced-kd:found=1 --order naive direction-binned+hashed:tile=16 hilbert \
+            --layout heap-20 --cache 128K:128:1,2,4,8,16,full
         ;;
     scenes)
         for view in arena:8 house:40 cornell:22 caustics:6 prism:30 arena:40 house:8 cornell:4 caustics:30 prism:6; do
