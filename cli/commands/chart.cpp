@@ -76,7 +76,7 @@ void draw_charts(const Request& request, const Console& console) {
     if (!skipped.empty() && (!any || !request.kinds.empty())) throw trace::DataError(skipped);
 }
 
-std::string footer() {
+std::string chart_footer() {
     std::string out = "Kinds:\n";
     for (const auto& kind : charts::chart_kinds())
         out += fmt::format("  {:<22}{}; needs {}\n", kind.name, kind.title, kind.needs);
@@ -102,7 +102,7 @@ void add_chart(Command& command) {
     command.option("--front", request->front,
                    "write the rows on the curves of best-under-budget here, a CSV");
     command.flag("--force", request->force, "replace files that exist");
-    command.footer(footer());
+    command.footer(chart_footer());
     command.action(request, draw_charts);
 }
 

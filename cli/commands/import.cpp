@@ -60,7 +60,7 @@ void refuse_options_of_others(const Command& command, const Importer& importer) 
     }
 }
 
-std::string footer() {
+std::string import_footer() {
     std::string text = "Kinds:\n";
     for (const Importer& importer : imports::catalogue())
         text += fmt::format("  {:<13}{}\n", importer.kind, importer.summary);
@@ -96,7 +96,7 @@ void add_import(Command& command) {
     command.option("--size", request.size, {.least = 0, .above = true},
                    "the object's largest extent in metres (mesh)");
     command.flag("--force", options->force, "replace an imported scene");
-    command.footer(footer());
+    command.footer(import_footer());
     command.action(options, [&command](const Options& asked, const Console& console) {
         const Importer& importer = importer_of(asked.kind);
         refuse_options_of_others(command, importer);
