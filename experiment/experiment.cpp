@@ -9,9 +9,9 @@
 #include <set>
 
 #include "cachesim/cache_list.h"
-#include "experiment/traces/capture_job.h"
 #include "experiment/frames.h"
 #include "experiment/measurement.h"
+#include "experiment/traces/capture_job.h"
 #include "reorder/shared_library.h"
 #include "replay/layouts/catalogue.h"
 #include "scenes/loader.h"

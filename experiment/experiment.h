@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cachesim/cache.h"
-#include "experiment/traces/capture_options.h"
 #include "experiment/measurement.h"
+#include "experiment/traces/capture_options.h"
 #include "reorder/catalogue.h"
 
 namespace regather::experiment {

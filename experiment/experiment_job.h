@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "experiment/traces/capture_job.h"
 #include "experiment/experiment.h"
 #include "experiment/progress.h"
+#include "experiment/traces/capture_job.h"
 #include "results/row.h"
 #include "trace/json.h"
 

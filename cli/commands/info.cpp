@@ -8,9 +8,9 @@
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "replay/verification.h"
-#include "spatial/photons/recall.h"
 #include "scenes/loader.h"
 #include "scenes/needs.h"
+#include "spatial/photons/recall.h"
 #include "spatial/rays/ray_structures.h"
 #include "trace/error.h"
 #include "trace/folder.h"
@@ -32,7 +32,8 @@ std::string searched(const trace::TraceReader& trace) {
 std::string searched_again(const trace::TraceReader& trace) {
     std::string text = "; each query was searched again and walks the same way";
     if (trace.has("candidate")) text += ", with the same candidates";
-    if (trace.info().counts.find(spatial::nearest_found_count)) text += ", and misses as many of the nearest photons";
+    if (trace.info().counts.find(spatial::nearest_found_count))
+        text += ", and misses as many of the nearest photons";
     return text;
 }
 

@@ -11,8 +11,8 @@
 #include "cli/commands.h"
 #include "cli/interruption.h"
 #include "cli/progress.h"
-#include "experiment/traces/capture_options.h"
 #include "experiment/reference_job.h"
+#include "experiment/traces/capture_options.h"
 
 namespace regather::cli {
 namespace {

@@ -1,5 +1,5 @@
-// experiment/traces/brought_queries.h -- the queries among the columns that somebody brings for a trace: where each
-// is, and whatever else orderings can read of it. docs/trace_format.md.
+// experiment/traces/brought_queries.h -- the queries among the columns that somebody brings for a trace:
+// where each is, and whatever else orderings can read of it. docs/trace_format.md.
 #pragma once
 #include <cstdint>
 #include <filesystem>

@@ -1,14 +1,14 @@
-// experiment/traces/capture_job.h -- a capture from a scene's name to the files: OUT/image.exr, OUT/image.png,
-// OUT/trace/ and, where there is a caustic map, OUT/caustic-trace/; with frames, the same in OUT/frame-0000/,
-// OUT/frame-0005/ ...
+// experiment/traces/capture_job.h -- a capture from a scene's name to the files: OUT/image.exr,
+// OUT/image.png, OUT/trace/ and, where there is a caustic map, OUT/caustic-trace/; with frames, the same in
+// OUT/frame-0000/, OUT/frame-0005/ ...
 #pragma once
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "experiment/traces/capture_options.h"
 #include "experiment/progress.h"
+#include "experiment/traces/capture_options.h"
 #include "reorder/ordering.h"
 
 namespace regather::experiment {

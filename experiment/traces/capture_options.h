@@ -1,4 +1,5 @@
-// experiment/traces/capture_options.h -- what a capture can be asked for, from a command line or an experiment file.
+// experiment/traces/capture_options.h -- what a capture can be asked for, from a command line or an
+// experiment file.
 #pragma once
 #include <cstdint>
 #include <limits>

@@ -1,5 +1,5 @@
-// experiment/traces/ray_job.h -- a trace of the rays of a captured trace: its queries are the rays of one kind, and
-// their walks those through a hierarchy over the scene's triangles.
+// experiment/traces/ray_job.h -- a trace of the rays of a captured trace: its queries are the rays of one
+// kind, and their walks those through a hierarchy over the scene's triangles.
 #pragma once
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
-// experiment/traces/structure_job.h -- the queries of a finished trace searched again in another structure: the same
-// photons and queries, other walks.
+// experiment/traces/structure_job.h -- the queries of a finished trace searched again in another structure:
+// the same photons and queries, other walks.
 #pragma once
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
-// experiment/traces/trace_job.h -- a trace of somebody else's photons and queries: columns in, tree built, every
-// walk recorded.
+// experiment/traces/trace_job.h -- a trace of somebody else's photons and queries: columns in, tree built,
+// every walk recorded.
 #pragma once
 #include <cstdint>
 #include <filesystem>

@@ -1,5 +1,5 @@
-// experiment/traces/visits_job.h -- a trace of whatever another program has walked: columns of its elements and of
-// its queries' visits in, list walks out. docs/bringing_walks.md.
+// experiment/traces/visits_job.h -- a trace of whatever another program has walked: columns of its elements
+// and of its queries' visits in, list walks out. docs/bringing_walks.md.
 #pragma once
 #include <cstdint>
 #include <filesystem>

@@ -1,4 +1,5 @@
-// experiment/traces/walk_columns.h -- the columns of a trace that a search makes: its structure's and its walks'.
+// experiment/traces/walk_columns.h -- the columns of a trace that a search makes: its structure's and its
+// walks'.
 #pragma once
 #include <cstdint>
 #include <span>

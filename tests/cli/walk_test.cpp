@@ -267,7 +267,8 @@ TEST(WalkAgain, CandidatesAreColumnsBesideTheSameWalks) {
         EXPECT_THAT(expect_done({"walk", from, "--structure", spec, "--candidates", "-o", to, "--force"}).out,
                     HasSubstr("photons entered the list a query"));
         EXPECT_THAT(expect_done({"info", to, "--verify"}).out,
-                    testing::AllOf(HasSubstr("query_candidate_bytes"), HasSubstr("same way, with the same candidates\n")));
+                    testing::AllOf(HasSubstr("query_candidate_bytes"),
+                                   HasSubstr("same way, with the same candidates\n")));
         const trace::TraceReader without(plain), with(to);
         EXPECT_EQ(with.digests().at("walk"), without.digests().at("walk")) << spec;
         EXPECT_FALSE(without.has("candidate"));
