@@ -51,7 +51,7 @@ TEST(Layout, NoTextOfAnyKindOfChartLiesOnAnotherOverTheGuard) {
 }
 
 TEST(Layout, NorOverTheRowsOfTheFigures) {
-    for (const char* folder : {"results/figure4", "results/caches", "results/converge", "results/sampling",
+    for (const char* folder : {"results/figure4", "results/family", "results/converge", "results/sampling",
                                "results/rays", "results/structures"})
         EXPECT_GT(drawn_without_collisions(folder).size(), 0u) << folder;
 }
