@@ -12,27 +12,26 @@ Vec3 Coordinates::point(const Field& object, const Kind& kind, std::string_view 
 }
 
 std::array<double, 3> Coordinates::absolute(const Field& object, const Kind& kind, std::string_view key) {
-    return object[key].numbers(-most_coordinate, most_coordinate, kind.key(key).expected);
+    return object[key].numbers(-most_coordinate, most_coordinate, expected(kind, key));
 }
 
 Vec3 Coordinates::vector(const Field& object, const Kind& kind, std::string_view key) {
-    const std::string_view expected = kind.key(key).expected;
-    const Vec3 v = object[key].triple(-most_metres, most_metres, expected);
-    if (v == Vec3{}) object[key].fail("a vector of length 0", expected);
+    const std::string_view wanted = expected(kind, key);
+    const Vec3 v = object[key].triple(-most_metres, most_metres, wanted);
+    if (v == Vec3{}) object[key].fail("a vector of length 0", wanted);
     return v;
 }
 
 float Coordinates::positive(const Field& object, const Kind& kind, std::string_view key) {
-    return static_cast<float>(
-        object[key].number(0, most_metres, kind.key(key).expected, Field::Ends::open_low));
+    return static_cast<float>(object[key].number(0, most_metres, expected(kind, key), Field::Ends::open_low));
 }
 
 float Coordinates::not_negative(const Field& object, const Kind& kind, std::string_view key) {
-    return static_cast<float>(object[key].number(0, most_metres, kind.key(key).expected));
+    return static_cast<float>(object[key].number(0, most_metres, expected(kind, key)));
 }
 
 double Coordinates::degrees(const Field& object, const Kind& kind, std::string_view key) {
-    return object.has(key) ? object[key].number(-360, 360, kind.key(key).expected) : 0;
+    return object.has(key) ? object[key].number(-360, 360, expected(kind, key)) : 0;
 }
 
 }  // namespace regather::scenes

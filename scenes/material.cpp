@@ -19,15 +19,13 @@ Material read_material(const std::string& name, const Field& node) {
     if (kind.name == "glossy") material.kind = MaterialKind::glossy;
     if (kind.name == "mirror") material.kind = MaterialKind::mirror;
     if (kind.name == "dielectric") material.kind = MaterialKind::dielectric;
-    if (node.has("diffuse")) material.diffuse = node["diffuse"].triple(0, 1, kind.key("diffuse").expected);
-    if (node.has("specular"))
-        material.specular = node["specular"].triple(0, 1, kind.key("specular").expected);
+    if (node.has("diffuse")) material.diffuse = node["diffuse"].triple(0, 1, expected(kind, "diffuse"));
+    if (node.has("specular")) material.specular = node["specular"].triple(0, 1, expected(kind, "specular"));
     if (node.has("exponent"))
-        material.exponent =
-            static_cast<float>(node["exponent"].number(1, 1e6, kind.key("exponent").expected));
+        material.exponent = static_cast<float>(node["exponent"].number(1, 1e6, expected(kind, "exponent")));
     if (node.has("index_of_refraction"))
         material.index_of_refraction = static_cast<float>(
-            node["index_of_refraction"].number(1, 10, kind.key("index_of_refraction").expected));
+            node["index_of_refraction"].number(1, 10, expected(kind, "index_of_refraction")));
     const Vec3 sum = material.diffuse + material.specular;
     for (int channel = 0; channel < 3; ++channel)
         if (sum[channel] > 1 + 1e-6f)  // 0.7 + 0.3 in floats may round up.

@@ -1,7 +1,7 @@
 #!/bin/sh
 # make.sh REGATHER OUT [PART...]: makes the rows of this folder again, in OUT/results; captures and walks are kept in OUT (20 GB). Parts:
-# capture, trees (every structure), steps (of the octree: leaves, places, ways), scenes (and frames of their paths), family (all LRU caches); all of them
-# when none is named. It runs in OUT, so that the rows' provenance names what lies there.
+# capture, trees (every structure), steps (of the octree: leaves, places, ways), scenes (and frames of their paths), family (all LRU
+# caches); all of them when none is named. It runs in OUT, so that the rows' provenance names what lies there.
 set -eu
 regather=$(realpath "$1")
 mkdir -p "$2/results"
