@@ -25,45 +25,68 @@ WalkDecoder::Visits TreeWalkDecoder::decode(std::span<const std::uint8_t> walk) 
     const std::uint32_t* const children = children_.data();
     const std::uint64_t total = 8 * walk.size();
 
-    std::uint64_t position = 0;
+    // `bits` are the walk's from `position` on; `left` of them are to be relied on.
+    std::uint64_t position = 0, bits = bits_at(bytes, 0);
+    unsigned left = whole_bits;
+    const auto refill = [&] {
+        bits = bits_at(bytes, position);
+        left = whole_bits;
+        return position <= total;
+    };
+    const auto take = [&](unsigned taken) {
+        position += taken;
+        left -= taken;
+    };
     std::size_t count = 0, depth = 0;
     std::uint32_t node = 0;
     for (;;) {
-        // Down to a leaf by near bits; a further word of them below whole_bits levels.
+        // Down to a leaf by near bits; a further word of them below so many levels. Where the last inner node
+        // has two leaves its far bit is taken with them, without a branch that depends on it.
+        std::uint64_t two_leaves = 0;
         while (node < inner_) {
-            if (position > total) return {WalkFault::ends_early, {visited_.data(), count}};
-            std::uint64_t bits = bits_at(bytes, position);
+            if (left < 32 && !refill()) return {WalkFault::ends_early, {visited_.data(), count}};
             if (visited_.size() < count + whole_bits + 2) visited_.resize(2 * visited_.size());
             if (undecided_.size() < depth + whole_bits) undecided_.resize(2 * undecided_.size());
-            std::uint32_t *const to = visited_.data() + count, *const far = undecided_.data() + depth;
-            int steps = 0;
+            std::uint32_t *const to = visited_.data() + count, *const undecided = undecided_.data() + depth;
+            unsigned steps = 0;
             do {
                 const std::uint64_t upper = bits >> 63;
                 to[steps] = node;
-                far[steps] = children[2 * std::uint64_t{node} + (upper ^ 1)];
+                const std::uint32_t far = children[2 * std::uint64_t{node} + (upper ^ 1)];
+                undecided[steps] = far;
+                two_leaves = far >= inner_;
                 node = children[2 * std::uint64_t{node} + upper];
                 bits <<= 1;
                 ++steps;
-            } while (node < inner_ && steps < whole_bits);
-            count += static_cast<std::size_t>(steps);
-            depth += static_cast<std::size_t>(steps);
-            position += static_cast<std::uint64_t>(steps);
+            } while (node < inner_ && steps < left - 1);
+            count += steps;
+            depth += steps;
+            take(steps);
         }
-        if (visited_.size() <= count) visited_.resize(2 * visited_.size());
-        visited_[count++] = node;
+        if (visited_.size() < count + 2) visited_.resize(2 * visited_.size());
+        visited_[count] = node;
+        visited_[count + 1] = undecided_[depth - two_leaves];
+        count += 1 + (two_leaves & bits >> 63);
+        depth -= two_leaves;
+        bits <<= two_leaves;
+        take(static_cast<unsigned>(two_leaves));
         // Far bits: a zero drops the deepest undecided child, a one enters it.
         bool entered = false;
         while (!entered && depth > 0) {
-            if (position > total) return {WalkFault::ends_early, {visited_.data(), count}};
-            const std::uint64_t bits = bits_at(bytes, position);
-            const std::size_t zeros =
-                std::min<std::size_t>({static_cast<std::size_t>(std::countl_zero(bits)), whole_bits, depth});
+            const auto zeros = static_cast<unsigned>(
+                std::min<std::size_t>({static_cast<std::size_t>(std::countl_zero(bits)), left, depth}));
             depth -= zeros;
-            position += zeros;
-            if (depth == 0 || zeros == whole_bits) continue;
-            ++position;
-            node = undecided_[--depth];
-            entered = true;
+            bits <<= zeros;
+            take(zeros);
+            if (depth == 0) break;
+            if (left > 0) {
+                node = undecided_[--depth];
+                bits <<= 1;
+                take(1);
+                entered = true;
+            } else if (!refill()) {
+                return {WalkFault::ends_early, {visited_.data(), count}};
+            }
         }
         if (!entered) break;
     }
