@@ -49,7 +49,18 @@ public:
         const std::uint8_t* const bytes = padded_.data();
         const std::uint64_t total = 8 * walk.size();
 
-        std::uint64_t position = 0;
+        // `bits` are the walk's from `position` on; `left` of them are to be relied on.
+        std::uint64_t position = 0, bits = bits_at(bytes, 0);
+        unsigned left = whole_bits;
+        const auto refill = [&] {
+            bits = bits_at(bytes, position);
+            left = whole_bits;
+        };
+        const auto take_bits = [&](unsigned taken) {
+            bits <<= taken;
+            position += taken;
+            left -= taken;
+        };
         std::size_t depth = 0;
         std::uint32_t element = 0;
         for (;;) {
@@ -57,13 +68,13 @@ public:
             if (visited_.size() < count_ + step) visited_.resize(2 * visited_.size());
             visited_[count_++] = element;
             if (element < inner_) {
-                const std::uint64_t bits = bits_at(bytes, position);
+                if (left < 2 * slot_bits + 1) refill();
                 const std::uint64_t entered = bits >> (63 - slot_bits);
-                position += slot_bits + 1;
+                take_bits(slot_bits + 1);
                 if (entered > 0) {
                     const std::uint32_t* const row = children_ + (std::uint64_t{element} << slot_bits);
-                    const auto slot = static_cast<unsigned>(bits << (slot_bits + 1) >> (64 - slot_bits));
-                    position += slot_bits;
+                    const auto slot = static_cast<unsigned>(bits >> (64 - slot_bits));
+                    take_bits(slot_bits);
                     if (entered > 1u << slot_bits || row[entered - 1] == 0 || row[slot] == 0)
                         return told(position > total ? WalkFault::ends_early
                                                      : WalkFault::enters_missing_child);
@@ -78,18 +89,20 @@ public:
             // The deepest node whose children wait: a zero drops them, a one and a slot goes to one.
             bool gone = false;
             while (!gone && depth > 0) {
-                constexpr std::size_t most_zeros = whole_bits - 8;
                 if (position > total) return told(WalkFault::ends_early);
-                const std::uint64_t bits = bits_at(bytes, position);
-                const std::size_t zeros = std::min<std::size_t>(
-                    {static_cast<std::size_t>(std::countl_zero(bits)), most_zeros, depth});
+                const auto zeros = static_cast<unsigned>(
+                    std::min<std::size_t>({static_cast<std::size_t>(std::countl_zero(bits)), left, depth}));
                 for (std::size_t z = 0; spills && z < zeros; ++z) drop(waiting_[depth - 1 - z].left());
                 depth -= zeros;
-                position += zeros;
-                if (depth == 0 || zeros == most_zeros) continue;
+                take_bits(zeros);
+                if (depth == 0) break;
+                if (left < 1 + slot_bits) {
+                    refill();
+                    continue;
+                }
                 Waiting& at = waiting_[depth - 1];
-                const auto slot = static_cast<unsigned>(bits << (zeros + 1) >> (64 - slot_bits));
-                position += 1 + slot_bits;
+                const auto slot = static_cast<unsigned>(bits << 1 >> (64 - slot_bits));
+                take_bits(1 + slot_bits);
                 element = children_[(std::uint64_t{at.node()} << slot_bits) + slot];
                 if (element == 0 || at.has_gone_to(slot))
                     return told(position > total ? WalkFault::ends_early : WalkFault::enters_missing_child);
