@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <vector>
 
 #include "capture/capture.h"
 #include "capture/query_pass.h"
@@ -20,8 +22,39 @@ TEST(Strata, APlaceIsTheMiddleOfItsCell) {
     EXPECT_EQ(ten.place(0), 16384u << 16 | 6553u);         // a quarter, a tenth
     EXPECT_EQ(ten.place(4), 16384u << 16 | 58982u);        // a quarter, nine tenths
     EXPECT_EQ(ten.place(5), 3 * 16384u << 16 | 6553u);     // three quarters, a tenth
-    EXPECT_EQ(Strata(7).place(3), 32768u << 16 | 32768u);  // a prime makes one row
+    EXPECT_EQ(Strata(3).place(2), 32768u << 16 | 54613u);  // one row: half, five sixths
+    const Strata seven(7);                             // rows of 3, 2 and 2 cells, as high as they are many
+    EXPECT_EQ(seven.place(0), 14043u << 16 | 10922u);  // 3 of 14, a sixth
+    EXPECT_EQ(seven.place(3), 37449u << 16 | 16384u);  // 8 of 14, a quarter
+    EXPECT_EQ(seven.place(6), 56173u << 16 | 49152u);  // 12 of 14, three quarters
     EXPECT_EQ(Strata(1 << 20).place((1 << 20) - 1), 65504u << 16 | 65504u);
+}
+
+// The smallest and largest coordinates of a cell's samples stand in for its edges.
+TEST(Strata, AnyNumberOfCellsShareTheSquareEqually) {
+    for (const std::uint32_t count : {1u, 2u, 5u, 7u, 12u, 14u, 23u, 48u, 97u, 101u}) {
+        const Strata strata(count);
+        std::vector<std::array<double, 4>> boxes;  // by least and most, along rows and columns
+        for (std::uint32_t cell = 0; cell < count; ++cell) {
+            std::array<double, 4> box{1, 0, 1, 0};
+            for (std::uint32_t i = 0; i < 4000; ++i) {
+                Sampler sampler(9, Stream::gather, cell, i);
+                const Strata::Point point = strata.sample(cell, sampler);
+                box = {std::fmin(box[0], point.along_rows), std::fmax(box[1], point.along_rows),
+                       std::fmin(box[2], point.along_columns), std::fmax(box[3], point.along_columns)};
+            }
+            EXPECT_NEAR((box[1] - box[0]) * (box[3] - box[2]) * count, 1, 0.01) << cell << " of " << count;
+            EXPECT_LT(std::fmax(box[1] - box[0], box[3] - box[2]) * std::sqrt(count), 1.8) << count;
+            EXPECT_NEAR((box[0] + box[1]) / 2, (strata.place(cell) >> 16) / 65536.0, 1e-3);
+            EXPECT_NEAR((box[2] + box[3]) / 2, (strata.place(cell) & 0xffff) / 65536.0, 1e-3);
+            boxes.push_back(box);
+        }
+        for (std::size_t a = 0; a < boxes.size(); ++a)
+            for (std::size_t b = 0; b < a; ++b)
+                EXPECT_TRUE(boxes[a][0] >= boxes[b][1] || boxes[b][0] >= boxes[a][1] ||
+                            boxes[a][2] >= boxes[b][3] || boxes[b][2] >= boxes[a][3])
+                    << a << ", " << b << " of " << count;
+    }
 }
 
 /// The floor of a closed box, seen from above.
