@@ -117,6 +117,8 @@ trace::Json parameters(const Scene& scene, const CaptureConfig& config) {
     if (config.frame) all["frame"] = *config.frame;
     if (!config.keep.empty()) all["keep"] = config.keep;
     if (config.record == PhotonRecord::packed) all["photon_record"] = 16;
+    if (const std::string sampling = parse_sampling(pixels.sampling).text; sampling != default_sampling)
+        all["sampling"] = sampling;
     if (has_caustic_map(scene, config))
         all["caustic"] =
             trace::Json::object({{"photons", config.caustic.photons},

@@ -31,7 +31,8 @@ PixelPaths::PixelPaths(const Scene& scene, const RayCaster& caster, const LightS
       config_(config),
       parts_(parts),
       plane_(scene.camera, config.width, config.height),
-      work_(work) {}
+      work_(work),
+      distribution_(parse_sampling(config.sampling).make()) {}
 
 void PixelPaths::run(std::uint32_t pixel) {
     pixel_ = pixel;
@@ -57,6 +58,8 @@ void PixelPaths::run(std::uint32_t pixel) {
             if (config_.visualisation == Visualisation::direct) {
                 ask(work_.queries, shaded_[i], Layer::indirect);
             } else {
+                const Shaded& at = shaded_[i];
+                distribution_->look({at.material, at.position, at.normal, at.to_viewer});
                 add_direct_light(shaded_[i], i);
                 add_gather_rays(shaded_[i], i);
             }
@@ -226,9 +229,7 @@ void PixelPaths::add_light_of(const Shaded& at, Vec3 origin, const LightPoint& p
     if (caster_.occluded(origin, direction, distance)) return;
     const double to_solid_angle = static_cast<double>(distance2) / cos_light;
     double all = density * to_solid_angle;
-    if (at.material->kind == MaterialKind::glossy)
-        all += at.gather_rays *
-               static_cast<double>(scatter_pdf(*at.material, at.normal, at.to_viewer, direction));
+    if (at.material->kind == MaterialKind::glossy) all += at.gather_rays * distribution_->pdf(direction);
     add(Stage::shadow, at.specular ? Layer::specular : Layer::direct,
         at.throughput * f * point.radiance *
             static_cast<float>(static_cast<double>(dot(at.normal, direction)) / all));
@@ -254,7 +255,6 @@ void PixelPaths::add_gather_rays(const Shaded& at, std::size_t number) {
     if (rays == 0 || is_black(*at.material)) return;
     const Strata strata(rays);
     const bool glossy = at.material->kind == MaterialKind::glossy;
-    const Frame frame(at.normal);
     // The strata are visited in a random sequence: the paper's naive order knows no coherence inside a pixel.
     Sampler shuffle(config_.seed, Stream::gather, stream_index(number));
     sequence_.resize(rays);
@@ -266,29 +266,21 @@ void PixelPaths::add_gather_rays(const Shaded& at, std::size_t number) {
     for (std::uint32_t ray = 0; ray < rays; ++ray) {
         Sampler sampler(config_.seed, Stream::gather, stream_index(number), ray + 1);
         const Strata::Point cell = strata.sample(sequence_[ray], sampler);
-        Vec3 direction, weight;
-        double density = 0;
-        if (glossy) {
-            const float choice = sampler.uniform();
-            if (!sample_direction(*at.material, at.normal, at.to_viewer, choice, cell.along_rows,
-                                  cell.along_columns, direction))
-                continue;
-            density =
-                rays * static_cast<double>(scatter_pdf(*at.material, at.normal, at.to_viewer, direction));
-            if (!(density > 0)) continue;
-            weight = at.throughput * brdf(*at.material, at.normal, direction, at.to_viewer) *
-                     static_cast<float>(static_cast<double>(dot(at.normal, direction)) / density);
-        } else {
-            direction = frame.to_world(cosine_hemisphere(cell.along_rows, cell.along_columns));
-            weight = at.throughput * at.material->diffuse *
-                     (1 / static_cast<float>(rays));  // f cos over density cos / pi
-        }
+        GatherSample found;
+        if (!distribution_->sample(cell, sampler, found)) continue;
+        const Vec3 direction = found.direction;
+        const double density = rays * found.density;
+        const Vec3 weight =
+            found.is_cosine && !glossy
+                ? at.throughput * at.material->diffuse * (1 / static_cast<float>(rays))
+                : at.throughput * brdf(*at.material, at.normal, direction, at.to_viewer) *
+                      static_cast<float>(static_cast<double>(dot(at.normal, direction)) / density);
         if (!trace::is_finite(weight) || !trace::is_finite(direction)) {
             work_.nonfinite.count(Stage::gather);
             continue;
         }
         if (dot(direction, at.side) <= 0 || weight == Vec3{}) continue;
-        follow_gather(at, {direction, weight, density, strata.place(sequence_[ray])}, sampler);
+        follow_gather(at, {direction, weight, glossy ? density : 0, strata.place(sequence_[ray])}, sampler);
     }
 }
 

@@ -4,9 +4,11 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "capture/query_pass.h"
+#include "capture/sampling/gather_distribution.h"
 #include "capture/surface.h"
 #include "capture/view_plane.h"
 
@@ -71,6 +73,7 @@ private:
     std::array<Shaded, 2> shaded_{};  // one dielectric splits an eye path
     std::size_t shaded_points_ = 0;
     std::vector<std::uint32_t> sequence_;
+    const std::unique_ptr<GatherDistribution> distribution_;  // looks at the point that is shaded
     View view_;
 };
 

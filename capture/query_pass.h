@@ -4,11 +4,13 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "capture/lights.h"
 #include "capture/nonfinite.h"
 #include "capture/ray_caster.h"
+#include "capture/sampling/gather_distribution.h"
 
 namespace regather::capture {
 
@@ -30,6 +32,7 @@ struct QueryConfig {
         1;                ///< Eye rays a pixel, stratified over it; a single one goes through its centre ...
     bool jitter = false;  ///< ... or anywhere in the pixel.
     Visualisation visualisation = Visualisation::final_gather;
+    std::string sampling{default_sampling};  ///< Of gather rays: a spec of sampling/gather_distribution.h.
     std::uint64_t seed = 1;
 };
 

@@ -43,6 +43,7 @@ capture::CaptureConfig CaptureOptions::config() const {
         .samples = samples,
         .jitter = false,
         .visualisation = chosen<capture::Visualisation>(mode, capture::visualisation_names, "mode"),
+        .sampling = capture::parse_sampling(sampling).text,
         .seed = seed};
     config.photon = {.photons = photons, .seed = seed};
     config.gather = {.k = k,
@@ -85,6 +86,12 @@ capture::Tone CaptureOptions::tone_curve() const {
 
 std::span<const CaptureKey> capture_keys() {
     using Options = CaptureOptions;
+    static const std::string sampling_help = [] {
+        std::vector<std::string_view> names;
+        for (const capture::SamplingStrategy& strategy : capture::sampling_strategies())
+            names.push_back(strategy.name);
+        return fmt::format("how their directions are chosen: {}", fmt::join(names, ", "));
+    }();
     static const std::vector<CaptureKey> keys{
         {"width", &Options::width, "image width [pixels]", 1, most_pixels},
         {"height", &Options::height, "image height [pixels]", 1, most_pixels},
@@ -94,6 +101,7 @@ std::span<const CaptureKey> capture_keys() {
          .help = "how photons are seen: by final gather rays (equation 3), or direct (equation 2)",
          .words = capture::visualisation_names},
         {"gather_rays", &Options::gather_rays, "final gather rays a pixel (N)", 0, most_rays},
+        {"sampling", &Options::sampling, sampling_help},
         {"shadow_rays", &Options::shadow_rays, "shadow rays per shaded point and light, of up to four lights",
          0, most_rays},
         {"photons", &Options::photons, "photons to store", 0, most_photons},
@@ -145,7 +153,7 @@ std::span<const CaptureKey> capture_keys() {
 std::vector<IdleKeys> idle_keys(const CaptureOptions& options) {
     std::vector<IdleKeys> idle;
     if (options.mode == "direct")
-        idle.push_back({{"gather_rays", "shadow_rays"}, "mode", "direct", "casts no such rays"});
+        idle.push_back({{"gather_rays", "shadow_rays", "sampling"}, "mode", "direct", "casts no such rays"});
     if (options.caustic_photons == 0)
         idle.push_back(
             {{"caustic_k", "caustic_radius", "caustic_filter"}, "caustic_photons", "0", "makes no such map"});

@@ -26,7 +26,8 @@ struct CaptureOptions {
                   photons = 1'000'000, k = 100;
     double radius = 0;  ///< [scene units]; 0 or infinity: unlimited
     std::string mode = "final-gather",
-                filter = "none";  ///< capture::visualisation_names, capture::filter_names
+                filter = "none";                      ///< capture::visualisation_names, capture::filter_names
+    std::string sampling{capture::default_sampling};  ///< Of gather rays, a spec.
     bool surface_check = true;
     std::uint32_t caustic_photons = 100'000, caustic_k = 60;
     double caustic_radius = 0;  ///< [scene units]; 0 or infinity: unlimited

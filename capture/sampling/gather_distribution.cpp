@@ -1,0 +1,120 @@
+#include "capture/sampling/gather_distribution.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+#include <vector>
+
+#include "trace/error.h"
+#include "trace/text.h"
+#include "trace/word.h"
+
+namespace regather::capture {
+namespace {
+
+/// Directions about the normal by a fixed density.
+class AboutNormal : public GatherDistribution {
+public:
+    void look(const ShadedPoint& point) override { frame_ = Frame(point.normal); }
+
+protected:
+    const Frame& frame() const { return frame_; }
+    float cosine(Vec3 direction) const { return dot(frame_.normal, direction); }
+
+private:
+    Frame frame_{{0, 0, 1}};
+};
+
+class Uniform final : public AboutNormal {
+public:
+    bool sample(Strata::Point place, Sampler&, GatherSample& found) const override {
+        // The cosine of the angle to the normal is uniform: its square's complement is sin^2.
+        const float up = 1 - place.along_rows;
+        found = {frame().to_world(cosine_hemisphere(1 - up * up, place.along_columns)),
+                 0.5 * std::numbers::inv_pi};
+        return true;
+    }
+    double pdf(Vec3 direction) const override {
+        return cosine(direction) > 0 ? 0.5 * std::numbers::inv_pi : 0;
+    }
+};
+
+class Cosine final : public AboutNormal {
+public:
+    bool sample(Strata::Point place, Sampler&, GatherSample& found) const override {
+        found.direction = frame().to_world(cosine_hemisphere(place.along_rows, place.along_columns));
+        found.density = pdf(found.direction);
+        found.is_cosine = true;
+        return true;
+    }
+    double pdf(Vec3 direction) const override {
+        return std::max(0.0, static_cast<double>(cosine(direction)) * std::numbers::inv_pi);
+    }
+};
+
+class Scattering final : public GatherDistribution {
+public:
+    void look(const ShadedPoint& point) override {
+        point_ = point;
+        cosine_.look(point);
+    }
+    bool sample(Strata::Point place, Sampler& sampler, GatherSample& found) const override {
+        if (point_.material->kind != MaterialKind::glossy) return cosine_.sample(place, sampler, found);
+        const float choice = sampler.uniform();
+        if (!sample_direction(*point_.material, point_.normal, point_.to_viewer, choice, place.along_rows,
+                              place.along_columns, found.direction))
+            return false;
+        found.density = pdf(found.direction);
+        found.is_cosine = false;
+        return found.density > 0;
+    }
+    double pdf(Vec3 direction) const override {
+        if (point_.material->kind != MaterialKind::glossy) return cosine_.pdf(direction);
+        return static_cast<double>(scatter_pdf(*point_.material, point_.normal, point_.to_viewer, direction));
+    }
+
+private:
+    ShadedPoint point_;
+    Cosine cosine_;
+};
+
+template <class Distribution>
+std::unique_ptr<GatherDistribution> make(const trace::Parameters&) {
+    return std::make_unique<Distribution>();
+}
+
+constexpr SamplingStrategy table[] = {
+    {"uniform", "every direction above the surface alike", {}, make<Uniform>},
+    {"cosine", "by the cosine of the angle to the normal", {}, make<Cosine>},
+    {default_sampling,
+     "as the surface scatters: diffuse by the cosine, glossy by the two lobes of its material",
+     {},
+     make<Scattering>},
+};
+
+}  // namespace
+
+std::span<const SamplingStrategy> sampling_strategies() {
+    return table;
+}
+
+SamplingSpec parse_sampling(std::string_view spec) {
+    const std::size_t colon = std::min(spec.find(':'), spec.size());
+    const std::string_view name = spec.substr(0, colon);
+    std::vector<std::string_view> names;
+    for (const SamplingStrategy& strategy : table) names.push_back(strategy.name);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+        throw trace::UsageError(fmt::format("sampling: unknown {}; nearest: {}; known: {}",
+                                            trace::in_quotes(name), trace::nearest_words(name, names).front(),
+                                            trace::listed(names)));
+    const SamplingStrategy& strategy = table[found - names.begin()];
+    trace::Parameters parameters(strategy.name, strategy.parameters,
+                                 spec.substr(std::min(colon + 1, spec.size())));
+    const std::string given = parameters.text();
+    return {&strategy, std::move(parameters),
+            given.empty() ? std::string(strategy.name) : fmt::format("{}:{}", strategy.name, given)};
+}
+
+}  // namespace regather::capture

@@ -1,0 +1,64 @@
+// capture/sampling/gather_distribution.h -- how the directions of a shaded point's gather rays are chosen
+// (the paper, section 7), and the one table of strategies.
+#pragma once
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "capture/bsdf.h"
+#include "capture/strata.h"
+#include "trace/parameters.h"
+
+namespace regather::capture {
+
+struct ShadedPoint {
+    const Material* material = nullptr;  ///< Diffuse or glossy, and not black.
+    Vec3 position;                       ///< [scene units]
+    Vec3 normal, to_viewer;              ///< Unit length; the shading normal on the viewer's side.
+};
+
+struct GatherSample {
+    Vec3 direction;      ///< Unit length, pointing away.
+    double density = 0;  ///< [1/sr] With which it was drawn, above 0.
+    /// The density is cos / pi, so that a diffuse surface weighs each ray by its albedo, without rounding.
+    bool is_cosine = false;
+};
+
+/// A density over the directions at one point after the other. One for each thread.
+class GatherDistribution {
+public:
+    virtual ~GatherDistribution() = default;
+    /// What follows is of this point, which outlives it.
+    virtual void look(const ShadedPoint& point) = 0;
+    /// A direction by a point of the unit square and what further numbers it takes. False: none, which counts
+    /// as no light.
+    virtual bool sample(Strata::Point place, Sampler& sampler, GatherSample& found) const = 0;
+    /// [1/sr] With which sample() finds a direction above the surface.
+    virtual double pdf(Vec3 direction) const = 0;
+};
+
+struct SamplingStrategy {
+    std::string_view name, summary;
+    std::span<const trace::Parameter> parameters;
+    std::unique_ptr<GatherDistribution> (*make)(const trace::Parameters& given);
+};
+
+/// The one table of strategies.
+std::span<const SamplingStrategy> sampling_strategies();
+
+/// What is done without a word on it.
+inline constexpr std::string_view default_sampling = "brdf";
+
+/// What a spec NAME:parameter=value,... asked for.
+struct SamplingSpec {
+    const SamplingStrategy* strategy;
+    trace::Parameters parameters;
+    std::string text;  ///< All parameters, defaults too; a spec again.
+
+    std::unique_ptr<GatherDistribution> make() const { return strategy->make(parameters); }
+};
+/// Throws trace::UsageError for an unknown strategy, names the nearest and lists all, and for its parameters.
+SamplingSpec parse_sampling(std::string_view spec);
+
+}  // namespace regather::capture
