@@ -53,6 +53,7 @@ struct Map {
 
     GatherConfig config;
     std::vector<trace::Photon> heap;
+    std::vector<PhotonOrigin> origin;  // of the heap's photons
     std::vector<trace::Photon> whole;  // where `heap` is of packed ones: the photons before, in heap order
     PhotonTally tally;
     Gathered gathered, of_whole;
@@ -158,7 +159,11 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
             map.whole = spatial::left_balanced(pass.photons);
             farthest = std::max(farthest, trace::pack_positions(pass.photons));
         }
-        map.heap = spatial::left_balanced(pass.photons);
+        std::vector<std::uint32_t> from;
+        map.heap = spatial::left_balanced(pass.photons, from);
+        map.origin.resize(from.size());
+        std::transform(from.begin(), from.end(), map.origin.begin(),
+                       [&](std::uint32_t photon) { return pass.origin[photon]; });
         map.tally = pass.tally;
         result.nonfinite += pass.tally.nonfinite;
         result.tree_seconds += clock.lap();
@@ -189,7 +194,9 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
     }
 
     const QueryPass query_pass(scene, caster, lights, config.pixels,
-                               {.rays = writers.global && config.columns.rays, .caustics = caustics});
+                               {.rays = writers.global && config.columns.rays,
+                                .caustics = caustics,
+                                .guide = {spatial::PhotonKd(global.heap), global.origin, caustics}});
     Film film(config.pixels.width, config.pixels.height, config.pixels.samples);
     std::optional<Film> whole_film;
     if (packed) whole_film.emplace(config.pixels.width, config.pixels.height, config.pixels.samples);

@@ -23,6 +23,7 @@ void add(Power& sum, Vec3 power) {
 
 struct Flight {
     Vec3 position, direction, normal, power;  // power [W] times the number of paths
+    PhotonOrigin origin;
 };
 
 /// Paths [first, first + count): what they stored and where their power went.
@@ -92,7 +93,10 @@ private:
                     tally.nonfinite.count(Stage::photon);
                     return;
                 } else {
-                    block.stored.push_back({hit->position, direction, at.side, power});
+                    const PhotonOrigin met = !only_specular ? PhotonOrigin::surface
+                                             : caustic      ? PhotonOrigin::specular
+                                                            : PhotonOrigin::light;
+                    block.stored.push_back({hit->position, direction, at.side, power, met});
                     add(tally.stored, power);
                 }
                 if (kind_ == PhotonKind::caustic) return;
@@ -176,10 +180,12 @@ PhotonPass trace_photons(const Scene& scene, const RayCaster& caster, const Ligh
                          &pass.tally.absorbed_by_specular, &pass.tally.not_stored, &pass.tally.cut_off})
         scale(*power, share);
     pass.photons.resize(stored.size());
+    pass.origin.resize(stored.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, stored.size(), 4096), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             trace::Photon& photon = pass.photons[i];
             photon.position = stored[i].position;
+            pass.origin[i] = stored[i].origin;
             trace::encode_power(stored[i].power * static_cast<float>(share), photon.power);
             trace::encode_direction(stored[i].direction, photon);
             trace::encode_normal(stored[i].normal, photon);

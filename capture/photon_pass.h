@@ -28,6 +28,9 @@ struct PhotonConfig {
         100;  ///< With 100,000 more, the most that are traced for each photon asked for.
 };
 
+/// What a photon has met before the surface that stores it.
+enum class PhotonOrigin : std::uint8_t { light, specular, surface };
+
 using Power = std::array<double, 3>;  ///< [W] per RGB channel.
 
 /// Where the power went. A photon's flight starts at a light (emitted) or a surface (reflected) and ends in
@@ -44,6 +47,8 @@ struct PhotonTally {
 
 struct PhotonPass {
     std::vector<trace::Photon> photons;  ///< In path order; the split axes are 0.
+    std::vector<PhotonOrigin>
+        origin;  ///< Of each: nothing since its light, specular surfaces alone, or others.
     PhotonTally tally;
 };
 

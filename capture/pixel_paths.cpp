@@ -32,7 +32,7 @@ PixelPaths::PixelPaths(const Scene& scene, const RayCaster& caster, const LightS
       parts_(parts),
       plane_(scene.camera, config.width, config.height),
       work_(work),
-      distribution_(parse_sampling(config.sampling).make()) {}
+      distribution_(parse_sampling(config.sampling).make(parts_.guide)) {}
 
 void PixelPaths::run(std::uint32_t pixel) {
     pixel_ = pixel;
@@ -59,7 +59,7 @@ void PixelPaths::run(std::uint32_t pixel) {
                 ask(work_.queries, shaded_[i], Layer::indirect);
             } else {
                 const Shaded& at = shaded_[i];
-                distribution_->look({at.material, at.position, at.normal, at.to_viewer});
+                distribution_->look({{at.material, at.normal, at.to_viewer}, at.position});
                 add_direct_light(shaded_[i], i);
                 add_gather_rays(shaded_[i], i);
             }

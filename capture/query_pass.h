@@ -88,6 +88,7 @@ struct PassParts {
     bool rays = false;      ///< Keep the rays.
     bool caustics = false;  ///< There is a caustic map: ask it, and let gather rays not look for lights by
                             ///< way of specular surfaces.
+    PhotonGuide guide{};    ///< What strategies of sampling ask that want photons.
 };
 
 class QueryPass {

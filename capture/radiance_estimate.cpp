@@ -22,13 +22,6 @@ struct Gaussian {
     float operator()(float share2) const { return norm * (floor + peak * std::exp(-beta / 2 * share2)); }
 };
 
-bool is_used(const trace::Photon& photon, const GatherPoint& at, bool surface_check) {
-    if (!(dot(at.normal, trace::decode_direction(photon)) < 0)) return false;
-    if (!surface_check) return true;
-    const Vec3 own = trace::decode_normal(photon);
-    return own == Vec3{} || dot(own, at.normal) > least_cosine;
-}
-
 template <class Weight>
 Vec3 weighted_sum(const spatial::PhotonKd& photons, const spatial::NearestSet& found, const GatherPoint& at,
                   float radius2, bool surface_check, const Weight& weight) {
@@ -54,6 +47,13 @@ Vec3 weighted_sum(const spatial::PhotonKd& photons, const spatial::NearestSet& f
 }
 
 }  // namespace
+
+bool is_used(const trace::Photon& photon, const GatherPoint& at, bool surface_check) {
+    if (!(dot(at.normal, trace::decode_direction(photon)) < 0)) return false;
+    if (!surface_check) return true;
+    const Vec3 own = trace::decode_normal(photon);
+    return own == Vec3{} || dot(own, at.normal) > least_cosine;
+}
 
 Vec3 reflected_radiance(const spatial::PhotonKd& photons, const spatial::NearestSet& found,
                         const GatherPoint& at, Filter filter, bool surface_check) {

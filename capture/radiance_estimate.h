@@ -22,6 +22,10 @@ struct GatherPoint {
     Vec3 normal, to_viewer;
 };
 
+/// Whether a photon lights the surface: it comes from before it and, with `surface_check`, its own surface's
+/// normal, where it tells one, is within 60 degrees.
+bool is_used(const trace::Photon& photon, const GatherPoint& at, bool surface_check);
+
 /// Of a full set, the farthest photon bounds the disc and is not counted: k - 1 photons lie in it at random,
 /// and the mean of (k - 1) / area is the density (Mack & Rosenblatt, "Multivariate k-nearest neighbor density
 /// estimates", 1979), while that of k / area is k / (k - 1) of it. Sum over the photons of f_r x power x

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "capture/sampling/incident.h"
 #include "trace/error.h"
 #include "trace/text.h"
 #include "trace/word.h"
@@ -16,7 +17,7 @@ namespace {
 /// Directions about the normal by a fixed density.
 class AboutNormal : public GatherDistribution {
 public:
-    void look(const ShadedPoint& point) override { frame_ = Frame(point.normal); }
+    void look(const ShadedPoint& point) override { frame_ = Frame(point.surface.normal); }
 
 protected:
     const Frame& frame() const { return frame_; }
@@ -56,7 +57,7 @@ public:
 class Scattering final : public GatherDistribution {
 public:
     void look(const ShadedPoint& point) override {
-        point_ = point;
+        point_ = point.surface;
         cosine_.look(point);
     }
     bool sample(Strata::Point place, Sampler& sampler, GatherSample& found) const override {
@@ -75,22 +76,25 @@ public:
     }
 
 private:
-    ShadedPoint point_;
+    GatherPoint point_{};
     Cosine cosine_;
 };
 
 template <class Distribution>
-std::unique_ptr<GatherDistribution> make(const trace::Parameters&) {
+std::unique_ptr<GatherDistribution> make(const trace::Parameters&, const PhotonGuide&) {
     return std::make_unique<Distribution>();
 }
 
-constexpr SamplingStrategy table[] = {
+const SamplingStrategy table[] = {
     {"uniform", "every direction above the surface alike", {}, make<Uniform>},
     {"cosine", "by the cosine of the angle to the normal", {}, make<Cosine>},
     {default_sampling,
      "as the surface scatters: diffuse by the cosine, glossy by the two lobes of its material",
      {},
      make<Scattering>},
+    {"incident", "by where the photons about the point came from, at least the floor of the cosine",
+     incident_parameters(), make_incident, true},
+    {"combined", "by the same table times the BRDF", incident_parameters(), make_combined, true},
 };
 
 }  // namespace

@@ -7,15 +7,16 @@
 #include <string_view>
 
 #include "capture/bsdf.h"
+#include "capture/sampling/photon_guide.h"
 #include "capture/strata.h"
 #include "trace/parameters.h"
 
 namespace regather::capture {
 
+/// Of a material that is diffuse or glossy, and not black.
 struct ShadedPoint {
-    const Material* material = nullptr;  ///< Diffuse or glossy, and not black.
-    Vec3 position;                       ///< [scene units]
-    Vec3 normal, to_viewer;              ///< Unit length; the shading normal on the viewer's side.
+    GatherPoint surface{};
+    Vec3 position;  ///< [scene units]
 };
 
 struct GatherSample {
@@ -41,7 +42,9 @@ public:
 struct SamplingStrategy {
     std::string_view name, summary;
     std::span<const trace::Parameter> parameters;
-    std::unique_ptr<GatherDistribution> (*make)(const trace::Parameters& given);
+    /// The guide outlives the distribution.
+    std::unique_ptr<GatherDistribution> (*make)(const trace::Parameters& given, const PhotonGuide& guide);
+    bool asks_photons = false;
 };
 
 /// The one table of strategies.
@@ -56,7 +59,9 @@ struct SamplingSpec {
     trace::Parameters parameters;
     std::string text;  ///< All parameters, defaults too; a spec again.
 
-    std::unique_ptr<GatherDistribution> make() const { return strategy->make(parameters); }
+    std::unique_ptr<GatherDistribution> make(const PhotonGuide& guide) const {
+        return strategy->make(parameters, guide);
+    }
 };
 /// Throws trace::UsageError for an unknown strategy, names the nearest and lists all, and for its parameters.
 SamplingSpec parse_sampling(std::string_view spec);

@@ -32,7 +32,8 @@ std::size_t left_count(std::size_t n) {
 
 class Builder {
 public:
-    Builder(std::span<const Photon> photons, std::vector<Photon>& heap) : photons_(photons), heap_(heap) {}
+    Builder(std::span<const Photon> photons, std::vector<Photon>& heap, std::vector<std::uint32_t>& from)
+        : photons_(photons), heap_(heap), from_(from) {}
 
     void build(std::span<PlacedPhoton> items, std::size_t slot) {
         if (items.empty()) return;
@@ -48,6 +49,7 @@ public:
                              return x < y || (x == y && a.photon < b.photon);
                          });
         Photon& node = heap_[slot - 1] = photons_[items[left].photon];
+        from_[slot - 1] = items[left].photon;
         node.flags = static_cast<std::uint16_t>((node.flags & ~3u) | static_cast<unsigned>(axis));
 
         const std::span<PlacedPhoton> low = items.first(left), high = items.subspan(left + 1);
@@ -65,11 +67,17 @@ public:
 private:
     std::span<const Photon> photons_;
     std::vector<Photon>& heap_;
+    std::vector<std::uint32_t>& from_;
 };
 
 }  // namespace
 
 std::vector<Photon> left_balanced(std::span<const Photon> photons) {
+    std::vector<std::uint32_t> from;
+    return left_balanced(photons, from);
+}
+
+std::vector<Photon> left_balanced(std::span<const Photon> photons, std::vector<std::uint32_t>& from) {
     if (photons.size() >= (std::size_t{1} << 31))
         throw trace::DataError(fmt::format("photons: found {}, expected fewer than 2^31", photons.size()));
     std::vector<PlacedPhoton> items(photons.size());
@@ -79,7 +87,8 @@ std::vector<Photon> left_balanced(std::span<const Photon> photons) {
         items[i] = {photons[i].position, static_cast<std::uint32_t>(i)};
     }
     std::vector<Photon> heap(photons.size());
-    Builder(photons, heap).build(items, 1);
+    from.resize(photons.size());
+    Builder(photons, heap, from).build(items, 1);
     return heap;
 }
 

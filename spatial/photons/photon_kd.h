@@ -34,6 +34,8 @@ private:
 /// the result depends on nothing else. O(n log n) in parallel tasks. Throws trace::DataError for a photon at
 /// NaN or infinity and for 2^31 or more photons.
 std::vector<Photon> left_balanced(std::span<const Photon> photons);
+/// And which of `photons` each of them was.
+std::vector<Photon> left_balanced(std::span<const Photon> photons, std::vector<std::uint32_t>& from);
 
 /// First node (by number) that breaks the order of a left-balanced kd-tree, or size() when none does. For
 /// files that come from elsewhere: a search in a tree that is out of order would miss photons.

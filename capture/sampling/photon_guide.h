@@ -1,0 +1,29 @@
+// capture/sampling/photon_guide.h -- the photons about a shaded point as witnesses of where its light comes
+// from.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
+#include "capture/photon_pass.h"
+#include "capture/radiance_estimate.h"
+#include "spatial/photons/nearest.h"
+
+namespace regather::capture {
+
+/// The global map, and of each of its photons where it came from. Photons that came from a light without
+/// meeting a surface are no witnesses, as shadow rays see that light; nor are those that specular surfaces
+/// alone have turned, where a caustic map sees them.
+struct PhotonGuide {
+    spatial::PhotonKd photons;
+    std::span<const PhotonOrigin> origin = {};  ///< In the order of the photons.
+    bool caustics_apart = false;
+
+    bool is_witness(std::uint32_t photon, const GatherPoint& at) const {
+        if (origin[photon] == PhotonOrigin::light) return false;
+        if (origin[photon] == PhotonOrigin::specular && caustics_apart) return false;
+        return is_used(photons.nodes()[photon], at, true);
+    }
+};
+
+}  // namespace regather::capture
