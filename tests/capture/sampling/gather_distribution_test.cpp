@@ -1,0 +1,188 @@
+#include "capture/sampling/gather_distribution.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "capture/sampling/hemisphere_table.h"
+#include "study/chi_squared.h"
+#include "trace/error.h"
+
+namespace regather::capture {
+namespace {
+
+Material surface_of(float diffuse, float specular, float exponent) {
+    Material material;
+    material.kind = specular > 0 ? MaterialKind::glossy : MaterialKind::diffuse;
+    material.diffuse = {diffuse, diffuse, diffuse};
+    material.specular = {specular, specular, specular};
+    material.exponent = exponent;
+    return material;
+}
+
+trace::Photon photon_from(Vec3 position, Vec3 from, Vec3 power) {
+    trace::Photon photon;
+    photon.position = position;
+    trace::encode_direction(-from, photon);
+    trace::encode_power(power, photon.power);
+    return photon;
+}
+
+/// Photons about (1, 2, 3) on a floor: most from low on the side of +x, some from above, a few from below it.
+struct Witnesses {
+    std::vector<trace::Photon> heap;
+    std::vector<PhotonOrigin> origin;
+
+    Witnesses() {
+        std::vector<trace::Photon> photons;
+        Sampler sampler(3, Stream::photon, 1);
+        for (int i = 0; i < 400; ++i) {
+            const Vec3 place{1 + 0.1f * sampler.uniform(), 2 + 0.1f * sampler.uniform(), 3};
+            Vec3 from = cosine_hemisphere(sampler.uniform(), sampler.uniform());
+            if (i % 4 != 0) from = normalize(Vec3{0.9f, 0.3f * sampler.uniform(), 0.2f});
+            if (i % 25 == 0) from.z = -from.z;
+            photons.push_back(photon_from(place, from, {1, 1, 0.5f}));
+        }
+        heap = spatial::left_balanced(photons);
+        origin.assign(heap.size(), PhotonOrigin::surface);
+    }
+    PhotonGuide guide() const { return {spatial::PhotonKd(heap), origin, true}; }
+};
+
+/// Directions over the upper hemisphere, in cells of equal share of the cosine, each asked in many places.
+template <class F>
+void over_cells(std::uint32_t rows, std::uint32_t columns, std::uint32_t fine, F&& f) {
+    for (std::uint32_t row = 0; row < rows; ++row)
+        for (std::uint32_t column = 0; column < columns; ++column)
+            for (std::uint32_t i = 0; i < fine; ++i)
+                for (std::uint32_t j = 0; j < fine; ++j) {
+                    const float u = (static_cast<float>(row) +
+                                     (static_cast<float>(i) + 0.5f) / static_cast<float>(fine)) /
+                                    static_cast<float>(rows),
+                                v = (static_cast<float>(column) +
+                                     (static_cast<float>(j) + 0.5f) / static_cast<float>(fine)) /
+                                    static_cast<float>(columns);
+                    f(row * columns + column, cosine_hemisphere(u, v));
+                }
+}
+
+struct Case {
+    std::string spec;
+    float diffuse, specular, exponent;
+    Vec3 to_viewer;
+};
+
+class Samplers : public testing::TestWithParam<Case> {
+protected:
+    Samplers() {
+        distribution_->look({{&material_, {0, 0, 1}, normalize(GetParam().to_viewer)}, {1.05f, 2.05f, 3}});
+    }
+
+    const Material material_ = surface_of(GetParam().diffuse, GetParam().specular, GetParam().exponent);
+    const Witnesses witnesses_;
+    const PhotonGuide guide_ = witnesses_.guide();
+    const std::unique_ptr<GatherDistribution> distribution_ = parse_sampling(GetParam().spec).make(guide_);
+};
+
+// Of the samples, those that are none are the rest of the integral.
+TEST_P(Samplers, SamplesFallAsTheDensitySays) {
+    constexpr std::uint32_t samples = 200'000, rows = 8, columns = 32, fine = 24;
+    std::vector<double> found(rows * columns + 1), expected(rows * columns + 1);
+    double sum = 0;
+    over_cells(rows, columns, fine, [&](std::uint32_t cell, Vec3 direction) {
+        const double share = distribution_->pdf(direction) * std::numbers::pi /
+                             static_cast<double>(direction.z) / (rows * columns * fine * fine);
+        expected[cell] += samples * share;
+        sum += share;
+    });
+    EXPECT_LE(sum, 1 + 1e-3);
+    expected.back() = std::max(0.0, samples * (1 - sum));
+    const HemisphereTable cells(rows, columns);
+    for (std::uint32_t i = 0; i < samples; ++i) {
+        Sampler sampler(11, Stream::gather, 5, i);
+        GatherSample sample;
+        const Strata::Point place{sampler.uniform(), sampler.uniform()};
+        if (!distribution_->sample(place, sampler, sample)) {
+            ++found.back();
+            continue;
+        }
+        EXPECT_GT(sample.density, 0);
+        EXPECT_NEAR(dot(sample.direction, sample.direction), 1, 1e-5);
+        ++found[cells.cell_of(sample.direction)];
+    }
+    EXPECT_GT(study::chi_squared_p(found, expected), 1e-5);
+}
+
+TEST_P(Samplers, ASamplesDensityIsThatOfItsDirection) {
+    for (std::uint32_t i = 0; i < 2000; ++i) {
+        Sampler sampler(12, Stream::gather, 5, i);
+        GatherSample sample;
+        const Strata::Point place{sampler.uniform(), sampler.uniform()};
+        if (!distribution_->sample(place, sampler, sample)) continue;
+        EXPECT_NEAR(distribution_->pdf(sample.direction) / sample.density, 1, 1e-3) << i;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, Samplers,
+    testing::Values(Case{"uniform", 0.5f, 0, 1, {0, 0, 1}}, Case{"cosine", 0.5f, 0.3f, 8, {1, 0, 1}},
+                    Case{"brdf", 0.5f, 0, 1, {1, 0, 1}}, Case{"brdf", 0.2f, 0.5f, 8, {1, 1, 1}},
+                    Case{"incident", 0.5f, 0, 1, {1, 0, 1}},
+                    Case{"incident:rows=2,columns=4,floor=10,smooth=0", 0.5f, 0, 1, {1, 0, 1}},
+                    Case{"combined:rows=8,columns=16", 0.2f, 0.5f, 20, {-1, 0, 1}}));
+
+// Three quarters of the photons come from a tenth of a turn at the horizon.
+TEST(IncidentSampling, GoesWherePhotonsCameFrom) {
+    const Witnesses witnesses;
+    const PhotonGuide guide = witnesses.guide();
+    const auto distribution = parse_sampling("incident:floor=20,smooth=0").make(guide);
+    const Material white = surface_of(0.5f, 0, 1);
+    distribution->look({{&white, {0, 0, 1}, {0, 0, 1}}, {1.05f, 2.05f, 3}});
+    int low = 0;
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        Sampler sampler(4, Stream::gather, 1, i);
+        GatherSample sample;
+        ASSERT_TRUE(distribution->sample({sampler.uniform(), sampler.uniform()}, sampler, sample));
+        low += sample.direction.x > 0.7f && sample.direction.y > 0;
+    }
+    EXPECT_GT(low, 500);
+    EXPECT_LT(low, 800);
+}
+
+TEST(IncidentSampling, PhotonsOfLightsAndOfTheCausticMapAreNoWitnesses) {
+    Witnesses witnesses;
+    const Material white = surface_of(0.5f, 0, 1);
+    for (const auto& [origin, apart] : {std::pair{PhotonOrigin::light, true},
+                                        {PhotonOrigin::light, false},
+                                        {PhotonOrigin::specular, true}}) {
+        witnesses.origin.assign(witnesses.heap.size(), origin);
+        PhotonGuide guide = witnesses.guide();
+        guide.caustics_apart = apart;
+        const auto distribution = parse_sampling("incident").make(guide);
+        distribution->look({{&white, {0, 0, 1}, {0, 0, 1}}, {1.05f, 2.05f, 3}});
+        const Vec3 low = normalize(Vec3{0.9f, 0.1f, 0.2f});
+        EXPECT_NEAR(distribution->pdf(low), low.z / std::numbers::pi, 1e-6) << "the cosine alone";
+        guide.caustics_apart = false;
+        if (origin == PhotonOrigin::light) continue;
+        distribution->look({{&white, {0, 0, 1}, {0, 0, 1}}, {1.05f, 2.05f, 3}});
+        EXPECT_GT(distribution->pdf(low), 3 * low.z / std::numbers::pi);
+    }
+}
+
+TEST(Sampling, SpecsThatCannotBeAreRefused) {
+    const PhotonGuide none;
+    EXPECT_THROW(parse_sampling("cosin"), trace::UsageError);
+    EXPECT_THROW(parse_sampling("cosine:k=3"), trace::UsageError);
+    for (const char* const spec : {"incident:rows=65", "incident:columns=5", "incident:floor=0",
+                                   "incident:floor=101", "incident:smooth=2", "combined:k=0"})
+        EXPECT_THROW(parse_sampling(spec).make(none), trace::UsageError) << spec;
+    EXPECT_EQ(parse_sampling("brdf").text, default_sampling);
+    EXPECT_EQ(parse_sampling("incident:rows=2").text, "incident:rows=2,columns=16,k=100,floor=25,smooth=1");
+}
+
+}  // namespace
+}  // namespace regather::capture
