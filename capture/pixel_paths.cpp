@@ -269,12 +269,12 @@ void PixelPaths::add_gather_rays(const Shaded& at, std::size_t number) {
         GatherSample found;
         if (!distribution_->sample(cell, sampler, found)) continue;
         const Vec3 direction = found.direction;
-        const double density = rays * found.density;
+        const double density = rays * found.density, divisor = rays * found.divisor;
         const Vec3 weight =
             found.is_cosine && !glossy
                 ? at.throughput * at.material->diffuse * (1 / static_cast<float>(rays))
                 : at.throughput * brdf(*at.material, at.normal, direction, at.to_viewer) *
-                      static_cast<float>(static_cast<double>(dot(at.normal, direction)) / density);
+                      static_cast<float>(static_cast<double>(dot(at.normal, direction)) / divisor);
         if (!trace::is_finite(weight) || !trace::is_finite(direction)) {
             work_.nonfinite.count(Stage::gather);
             continue;

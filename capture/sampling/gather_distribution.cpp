@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "capture/sampling/incident.h"
+#include "capture/sampling/mixture.h"
 #include "trace/error.h"
 #include "trace/text.h"
 #include "trace/word.h"
@@ -33,7 +34,7 @@ public:
         // The cosine of the angle to the normal is uniform: its square's complement is sin^2.
         const float up = 1 - place.along_rows;
         found = {frame().to_world(cosine_hemisphere(1 - up * up, place.along_columns)),
-                 0.5 * std::numbers::inv_pi};
+                 0.5 * std::numbers::inv_pi, 0.5 * std::numbers::inv_pi};
         return true;
     }
     double pdf(Vec3 direction) const override {
@@ -45,7 +46,7 @@ class Cosine final : public AboutNormal {
 public:
     bool sample(Strata::Point place, Sampler&, GatherSample& found) const override {
         found.direction = frame().to_world(cosine_hemisphere(place.along_rows, place.along_columns));
-        found.density = pdf(found.direction);
+        found.density = found.divisor = pdf(found.direction);
         found.is_cosine = true;
         return true;
     }
@@ -66,7 +67,7 @@ public:
         if (!sample_direction(*point_.material, point_.normal, point_.to_viewer, choice, place.along_rows,
                               place.along_columns, found.direction))
             return false;
-        found.density = pdf(found.direction);
+        found.density = found.divisor = pdf(found.direction);
         found.is_cosine = false;
         return found.density > 0;
     }
@@ -85,35 +86,44 @@ std::unique_ptr<GatherDistribution> make(const trace::Parameters&, const PhotonG
     return std::make_unique<Distribution>();
 }
 
-const SamplingStrategy table[] = {
-    {"uniform", "every direction above the surface alike", {}, make<Uniform>},
-    {"cosine", "by the cosine of the angle to the normal", {}, make<Cosine>},
-    {default_sampling,
-     "as the surface scatters: diffuse by the cosine, glossy by the two lobes of its material",
-     {},
-     make<Scattering>},
-    {"incident", "by where the photons about the point came from, at least the floor of the cosine",
-     incident_parameters(), make_incident, true},
-    {"combined", "by the same table times the BRDF", incident_parameters(), make_combined, true},
-};
+std::span<const SamplingStrategy> table() {
+    static const SamplingStrategy all[] = {
+        {"uniform", "every direction above the surface alike", {}, make<Uniform>},
+        {"cosine", "by the cosine of the angle to the normal", {}, make<Cosine>},
+        {default_sampling,
+         "as the surface scatters: diffuse by the cosine, glossy by the two lobes of its material",
+         {},
+         make<Scattering>},
+        {"incident", "by where the photons about the point came from, at least the floor of the cosine",
+         incident_parameters(), make_incident, true},
+        {"combined", "by the same table times the BRDF", incident_parameters(), make_combined, true},
+        {"mis", "by the BRDF or by that table, each weighted (Veach & Guibas 1995)", mixture_parameters(),
+         make_mixture, true},
+    };
+    return all;
+}
 
 }  // namespace
 
+std::unique_ptr<GatherDistribution> make_scattering() {
+    return std::make_unique<Scattering>();
+}
+
 std::span<const SamplingStrategy> sampling_strategies() {
-    return table;
+    return table();
 }
 
 SamplingSpec parse_sampling(std::string_view spec) {
     const std::size_t colon = std::min(spec.find(':'), spec.size());
     const std::string_view name = spec.substr(0, colon);
     std::vector<std::string_view> names;
-    for (const SamplingStrategy& strategy : table) names.push_back(strategy.name);
+    for (const SamplingStrategy& strategy : table()) names.push_back(strategy.name);
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
         throw trace::UsageError(fmt::format("sampling: unknown {}; nearest: {}; known: {}",
                                             trace::in_quotes(name), trace::nearest_words(name, names).front(),
                                             trace::listed(names)));
-    const SamplingStrategy& strategy = table[found - names.begin()];
+    const SamplingStrategy& strategy = table()[static_cast<std::size_t>(found - names.begin())];
     trace::Parameters parameters(strategy.name, strategy.parameters,
                                  spec.substr(std::min(colon + 1, spec.size())));
     const std::string given = parameters.text();

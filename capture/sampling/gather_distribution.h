@@ -21,7 +21,10 @@ struct ShadedPoint {
 
 struct GatherSample {
     Vec3 direction;      ///< Unit length, pointing away.
-    double density = 0;  ///< [1/sr] With which it was drawn, above 0.
+    double density = 0;  ///< [1/sr] With which it was drawn, by whichever technique, above 0.
+    /// [1/sr] What the light of this direction is divided by: the density, unless techniques are weighted by
+    /// another heuristic than balance.
+    double divisor = 0;
     /// The density is cos / pi, so that a diffuse surface weighs each ray by its albedo, without rounding.
     bool is_cosine = false;
 };
@@ -46,6 +49,9 @@ struct SamplingStrategy {
     std::unique_ptr<GatherDistribution> (*make)(const trace::Parameters& given, const PhotonGuide& guide);
     bool asks_photons = false;
 };
+
+/// The strategy default_sampling.
+std::unique_ptr<GatherDistribution> make_scattering();
 
 /// The one table of strategies.
 std::span<const SamplingStrategy> sampling_strategies();

@@ -51,7 +51,7 @@ public:
 
     bool sample(Strata::Point place, Sampler&, GatherSample& found) const override {
         const HemisphereTable::Found drawn = table_.sample(place.along_rows, place.along_columns);
-        found = {frame_.to_world(drawn.direction), drawn.density};
+        found = {frame_.to_world(drawn.direction), drawn.density, drawn.density};
         return drawn.density > 0;
     }
     double pdf(Vec3 direction) const override { return table_.pdf(local(direction)); }

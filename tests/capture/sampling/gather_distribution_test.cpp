@@ -53,21 +53,24 @@ struct Witnesses {
     PhotonGuide guide() const { return {spatial::PhotonKd(heap), origin, true}; }
 };
 
-/// Directions over the upper hemisphere, in cells of equal share of the cosine, each asked in many places.
+/// Directions over the upper hemisphere in the cells of a table, and the solid angle that each stands for
+/// [sr].
 template <class F>
 void over_cells(std::uint32_t rows, std::uint32_t columns, std::uint32_t fine, F&& f) {
-    for (std::uint32_t row = 0; row < rows; ++row)
-        for (std::uint32_t column = 0; column < columns; ++column)
-            for (std::uint32_t i = 0; i < fine; ++i)
-                for (std::uint32_t j = 0; j < fine; ++j) {
-                    const float u = (static_cast<float>(row) +
-                                     (static_cast<float>(i) + 0.5f) / static_cast<float>(fine)) /
-                                    static_cast<float>(rows),
-                                v = (static_cast<float>(column) +
-                                     (static_cast<float>(j) + 0.5f) / static_cast<float>(fine)) /
-                                    static_cast<float>(columns);
-                    f(row * columns + column, cosine_hemisphere(u, v));
-                }
+    for (std::uint32_t cell = 0; cell < rows * columns; ++cell) {
+        const auto up = [&](std::uint32_t row) { return std::sqrt(1 - static_cast<double>(row) / rows); };
+        const double top = up(cell / columns), height = (top - up(cell / columns + 1)) / fine,
+                     turn = 2 * std::numbers::pi / columns / fine;
+        for (std::uint32_t i = 0; i < fine; ++i)
+            for (std::uint32_t j = 0; j < fine; ++j) {
+                const double z = top - (i + 0.5) * height, r = std::sqrt(1 - z * z),
+                             phi = (cell % columns * fine + j + 0.5) * turn;
+                f(cell,
+                  Vec3{static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)),
+                       static_cast<float>(z)},
+                  height * turn);
+            }
+    }
 }
 
 struct Case {
@@ -93,9 +96,8 @@ TEST_P(Samplers, SamplesFallAsTheDensitySays) {
     constexpr std::uint32_t samples = 200'000, rows = 8, columns = 32, fine = 24;
     std::vector<double> found(rows * columns + 1), expected(rows * columns + 1);
     double sum = 0;
-    over_cells(rows, columns, fine, [&](std::uint32_t cell, Vec3 direction) {
-        const double share = distribution_->pdf(direction) * std::numbers::pi /
-                             static_cast<double>(direction.z) / (rows * columns * fine * fine);
+    over_cells(rows, columns, fine, [&](std::uint32_t cell, Vec3 direction, double solid_angle) {
+        const double share = distribution_->pdf(direction) * solid_angle;
         expected[cell] += samples * share;
         sum += share;
     });
@@ -133,6 +135,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"brdf", 0.5f, 0, 1, {1, 0, 1}}, Case{"brdf", 0.2f, 0.5f, 8, {1, 1, 1}},
                     Case{"incident", 0.5f, 0, 1, {1, 0, 1}},
                     Case{"incident:rows=2,columns=4,floor=10,smooth=0", 0.5f, 0, 1, {1, 0, 1}},
+                    Case{"mis:brdf=30", 0.2f, 0.5f, 20, {-1, 0, 1}},
+                    Case{"mis:brdf=60,heuristic=power", 0.2f, 0.5f, 20, {1, 0, 1}},
                     Case{"combined:rows=8,columns=16", 0.2f, 0.5f, 20, {-1, 0, 1}}));
 
 // Three quarters of the photons come from a tenth of a turn at the horizon.
