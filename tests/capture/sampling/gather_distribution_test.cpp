@@ -129,6 +129,27 @@ TEST_P(Samplers, ASamplesDensityIsThatOfItsDirection) {
     }
 }
 
+// The integral of cos / pi over the hemisphere is 1, whoever draws. Four deviations of the mean.
+TEST_P(Samplers, WhatIsDividedByTheDivisorHasTheIntegralAsItsMean) {
+    if (GetParam().spec == "brdf" && GetParam().specular > 0) return;  // draws nothing in some directions
+    constexpr std::uint32_t samples = 100'000;
+    double sum = 0, sum2 = 0;
+    for (std::uint32_t i = 0; i < samples; ++i) {
+        Sampler sampler(13, Stream::gather, 5, i);
+        GatherSample sample;
+        const Strata::Point place{sampler.uniform(), sampler.uniform()};
+        if (!distribution_->sample(place, sampler, sample)) continue;
+        const double value =
+            std::max(0.0, static_cast<double>(sample.direction.z)) / std::numbers::pi / sample.divisor;
+        sum += value;
+        sum2 += value * value;
+    }
+    const double mean = sum / samples,
+                 deviation = std::sqrt(std::max(0.0, sum2 / samples - mean * mean) / samples);
+    EXPECT_NEAR(mean, 1, 4 * deviation + 1e-5);
+    EXPECT_LT(deviation, 0.02);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Each, Samplers,
     testing::Values(Case{"uniform", 0.5f, 0, 1, {0, 0, 1}}, Case{"cosine", 0.5f, 0.3f, 8, {1, 0, 1}},
