@@ -32,6 +32,7 @@ PixelPaths::PixelPaths(const Scene& scene, const RayCaster& caster, const LightS
       parts_(parts),
       plane_(scene.camera, config.width, config.height),
       work_(work),
+      gather_strata_(parse_sampling(config.sampling).strata()),
       distribution_(parse_sampling(config.sampling).make(parts_.guide)) {}
 
 void PixelPaths::run(std::uint32_t pixel) {
@@ -253,7 +254,7 @@ void PixelPaths::share_gather_rays(std::uint32_t rays) {
 void PixelPaths::add_gather_rays(const Shaded& at, std::size_t number) {
     const std::uint32_t rays = at.gather_rays;
     if (rays == 0 || is_black(*at.material)) return;
-    const Strata strata(rays);
+    const Strata strata(rays, gather_strata_);
     const bool glossy = at.material->kind == MaterialKind::glossy;
     // The strata are visited in a random sequence: the paper's naive order knows no coherence inside a pixel.
     Sampler shuffle(config_.seed, Stream::gather, stream_index(number));

@@ -7,15 +7,21 @@
 
 namespace regather::capture {
 
+/// Of a count whose divisors make no grid that is near a square.
+enum class StrataShape : std::uint8_t {
+    grid,  ///< A grid all the same: a prime count is one row.
+    even,  ///< Rows of unequal numbers of cells.
+};
+
 /// `count` > 0 cells of equal area. A grid of rows x columns = count, as square as the divisors of `count`
-/// allow; where that would be more than three times as long as wide (a prime count is one row), the square
-/// root of `count`, rounded, of rows, each with count / rows cells or one more and as high as it has cells.
+/// allow; where that would be more than three times as long as wide and `shape` is even, the square root of
+/// `count`, rounded, of rows, each with count / rows cells or one more and as high as it has cells.
 struct Strata {
-    explicit Strata(std::uint32_t cells) : count(cells) {
+    explicit Strata(std::uint32_t cells, StrataShape shape = StrataShape::grid) : count(cells) {
         rows = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(count)));
         while (rows > 1 && count % rows != 0) --rows;
         columns = count / (rows > 1 ? rows : 1);
-        if (columns <= 3 * rows) return;
+        if (shape == StrataShape::grid || columns <= 3 * rows) return;
         rows = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(count))));
         columns = count / rows;
         longer = count % rows;

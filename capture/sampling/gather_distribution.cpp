@@ -9,6 +9,7 @@
 #include "capture/sampling/incident.h"
 #include "capture/sampling/mixture.h"
 #include "trace/error.h"
+#include "trace/range.h"
 #include "trace/text.h"
 #include "trace/word.h"
 
@@ -86,14 +87,16 @@ std::unique_ptr<GatherDistribution> make(const trace::Parameters&, const PhotonG
     return std::make_unique<Distribution>();
 }
 
+constexpr trace::Parameter scattering_parameters[] = {
+    {"even", "0", "1: strata of any number of rays; 0: a grid by its divisors, so a prime number is one row"},
+};
+
 std::span<const SamplingStrategy> table() {
     static const SamplingStrategy all[] = {
         {"uniform", "every direction above the surface alike", {}, make<Uniform>},
         {"cosine", "by the cosine of the angle to the normal", {}, make<Cosine>},
-        {default_sampling,
-         "as the surface scatters: diffuse by the cosine, glossy by the two lobes of its material",
-         {},
-         make<Scattering>},
+        {"brdf", "as the surface scatters: diffuse by the cosine, glossy by the two lobes of its material",
+         scattering_parameters, make<Scattering>},
         {"incident", "by where the photons about the point came from, at least the floor of the cosine",
          incident_parameters(), make_incident, true},
         {"combined", "by the same table times the BRDF", incident_parameters(), make_combined, true},
@@ -113,6 +116,10 @@ std::span<const SamplingStrategy> sampling_strategies() {
     return table();
 }
 
+StrataShape SamplingSpec::strata() const {
+    return parameters.knows("even") && parameters.count("even") == 0 ? StrataShape::grid : StrataShape::even;
+}
+
 SamplingSpec parse_sampling(std::string_view spec) {
     const std::size_t colon = std::min(spec.find(':'), spec.size());
     const std::string_view name = spec.substr(0, colon);
@@ -126,6 +133,7 @@ SamplingSpec parse_sampling(std::string_view spec) {
     const SamplingStrategy& strategy = table()[static_cast<std::size_t>(found - names.begin())];
     trace::Parameters parameters(strategy.name, strategy.parameters,
                                  spec.substr(std::min(colon + 1, spec.size())));
+    if (parameters.knows("even")) trace::require_range(strategy.name, "even", parameters.count("even"), 0, 1);
     const std::string given = parameters.text();
     return {&strategy, std::move(parameters),
             given.empty() ? std::string(strategy.name) : fmt::format("{}:{}", strategy.name, given)};

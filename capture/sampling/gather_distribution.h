@@ -57,7 +57,7 @@ std::unique_ptr<GatherDistribution> make_scattering();
 std::span<const SamplingStrategy> sampling_strategies();
 
 /// What is done without a word on it.
-inline constexpr std::string_view default_sampling = "brdf";
+inline constexpr std::string_view default_sampling = "brdf:even=0";
 
 /// What a spec NAME:parameter=value,... asked for.
 struct SamplingSpec {
@@ -68,6 +68,9 @@ struct SamplingSpec {
     std::unique_ptr<GatherDistribution> make(const PhotonGuide& guide) const {
         return strategy->make(parameters, guide);
     }
+    /// Of the gather rays of a point. All strategies have even ones but the default, whose pictures stay the
+    /// bytes that they were, unless it is asked.
+    StrataShape strata() const;
 };
 /// Throws trace::UsageError for an unknown strategy, names the nearest and lists all, and for its parameters.
 SamplingSpec parse_sampling(std::string_view spec);

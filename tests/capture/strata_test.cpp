@@ -23,17 +23,18 @@ TEST(Strata, APlaceIsTheMiddleOfItsCell) {
     EXPECT_EQ(ten.place(4), 16384u << 16 | 58982u);        // a quarter, nine tenths
     EXPECT_EQ(ten.place(5), 3 * 16384u << 16 | 6553u);     // three quarters, a tenth
     EXPECT_EQ(Strata(3).place(2), 32768u << 16 | 54613u);  // one row: half, five sixths
-    const Strata seven(7);                             // rows of 3, 2 and 2 cells, as high as they are many
+    const Strata seven(7, StrataShape::even);          // rows of 3, 2 and 2 cells, as high as they are many
     EXPECT_EQ(seven.place(0), 14043u << 16 | 10922u);  // 3 of 14, a sixth
     EXPECT_EQ(seven.place(3), 37449u << 16 | 16384u);  // 8 of 14, a quarter
     EXPECT_EQ(seven.place(6), 56173u << 16 | 49152u);  // 12 of 14, three quarters
+    EXPECT_EQ(Strata(7).place(6), 32768u << 16 | 60854u);  // one row: half, 13 of 14
     EXPECT_EQ(Strata(1 << 20).place((1 << 20) - 1), 65504u << 16 | 65504u);
 }
 
 // The smallest and largest coordinates of a cell's samples stand in for its edges.
 TEST(Strata, AnyNumberOfCellsShareTheSquareEqually) {
     for (const std::uint32_t count : {1u, 2u, 5u, 7u, 12u, 14u, 23u, 48u, 97u, 101u}) {
-        const Strata strata(count);
+        const Strata strata(count, StrataShape::even);
         std::vector<std::array<double, 4>> boxes;  // by least and most, along rows and columns
         for (std::uint32_t cell = 0; cell < count; ++cell) {
             std::array<double, 4> box{1, 0, 1, 0};
