@@ -29,6 +29,8 @@ struct Key {
     std::string label;
     const Line* line = nullptr;
     std::string colour = {};
+    std::vector<std::string> texts = {};  ///< The label in lines.
+    std::size_t top = 0;                  ///< Lines above its first one.
 };
 
 std::vector<Key> keys_of(const Figure& figure) {
@@ -215,10 +217,11 @@ private:
         lay_out_legend();
         chart_.width = static_cast<unsigned>(std::ceil(figure_.width));
         chart_.height =
-            static_cast<unsigned>(std::ceil(y + legend_line * static_cast<double>(key_lines_) + 6));
+            static_cast<unsigned>(std::ceil(y + legend_line * static_cast<double>(legend_lines_) + 6));
     }
 
-    /// As many columns as there is room for, up to four; each as wide as its longest key.
+    /// As many columns as there is room for, up to four; each as wide as its longest key. In a single column
+    /// a key that is too long takes several lines.
     void lay_out_legend() {
         const double room = figure_.width - 2 * edge;
         for (std::size_t columns = std::clamp<std::size_t>(keys_.size(), 1, 4); columns > 0; --columns) {
@@ -238,6 +241,15 @@ private:
             for (const double width : widths) {
                 key_columns_.push_back(x);
                 x += width + spare;
+            }
+            for (std::size_t k = 0; k < keys_.size(); ++k) {
+                Key& key = keys_[k];
+                if (columns > 1)
+                    key.texts = {key.label};
+                else
+                    key.texts = wrapped(key.label, legend_size, room - sample - gap_to_text);
+                key.top = columns > 1 ? k % key_lines_ : legend_lines_;
+                legend_lines_ = std::max(legend_lines_, key.top + key.texts.size());
             }
             return;
         }
@@ -459,9 +471,12 @@ private:
         std::string plots;
         for (std::size_t k = 0; k < keys_.size(); ++k) {
             const double x = key_columns_[k / key_lines_];
-            const double y = legend_top_ + legend_line * (static_cast<double>(k % key_lines_) + 0.5);
-            label(fitting(keys_[k].label, legend_size, figure_.width - edge - x - sample - gap_to_text),
-                  x + sample + gap_to_text, y, fmt::format("left font ',{}'", legend_size));
+            const double y = legend_top_ + legend_line * (static_cast<double>(keys_[k].top) + 0.5);
+            for (std::size_t i = 0; i < keys_[k].texts.size(); ++i)
+                label(
+                    fitting(keys_[k].texts[i], legend_size, figure_.width - edge - x - sample - gap_to_text),
+                    x + sample + gap_to_text, y + legend_line * static_cast<double>(i),
+                    fmt::format("left font ',{}'", legend_size));
             const char* separator = plots.empty() ? "" : ", \\\n    ";
             if (keys_[k].line != nullptr) {
                 const bool alone = keys_[k].line->form == Line::Form::points;
@@ -489,7 +504,8 @@ private:
     std::vector<Place> taken_;  ///< ... and where they are.
     std::vector<double> key_columns_;
     double legend_top_ = 0;
-    std::size_t key_lines_ = 0;
+    std::size_t key_lines_ = 0;     ///< Keys of a column.
+    std::size_t legend_lines_ = 0;  ///< Of text.
 };
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <map>
+#include <set>
 
 #include "results/parameters.h"
 #include "trace/error.h"
@@ -194,6 +196,14 @@ std::vector<Curve> curves(std::span<const results::Row> rows, Along along, const
         if (!is_known && std::find(strangers.begin(), strangers.end(), group.ordering) == strangers.end())
             strangers.push_back(group.ordering);
     }
+    // What another trait tells already is told by the picture's caption alone: here the layout where each
+    // structure has one of its own.
+    constexpr std::size_t structure = 2, layout = 3;
+    std::map<std::string, std::set<std::string>> layouts;
+    for (const Group& group : groups) layouts[group.traits[structure]].insert(group.traits[layout]);
+    if (layouts.size() > 1 &&
+        std::all_of(layouts.begin(), layouts.end(), [](const auto& of) { return of.second.size() == 1; }))
+        differs[layout] = false;
     std::vector<Curve> out;
     for (Group& group : groups) {
         if (group.tiled && along != Along::tile) hold(group.rows, &results::Row::tile, slice.tile);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "charts/caption.h"
@@ -59,10 +60,19 @@ Chart traffic_by_layout(const ChartKind& kind, const results::Rows& rows, const 
     std::vector<Curve> every;
     std::set<std::string> in_legend;
     const auto once = [&](const std::string& label) { return in_legend.insert(label).second ? label : ""; };
+    // A structure may lack some orderings: a mark is of one label everywhere.
+    std::map<std::string, std::set<std::string>> labels_of;
+    std::map<std::string, int> variants;
+    const auto tell_apart = [&](Curve& curve) {
+        std::set<std::string>& alike = labels_of[curve.colour];
+        if (alike.insert(curve.label).second) variants[curve.label] = static_cast<int>(alike.size()) - 1;
+        curve.variant = variants[curve.label];
+    };
     for (std::size_t p = 0; p < places.size(); ++p) {
         const double base = static_cast<double>(places.size() - 1 - p), height = base + marks_at;
         for (Curve& curve : curves(places[p].rows, Along::cache, {cache, options.tile, options.bins})) {
             const results::Row& row = *curve.rows.front();
+            tell_apart(curve);
             Line line = line_of(curve);
             line.label = once(curve.label);
             line.form = Line::Form::points;

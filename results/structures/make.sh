@@ -1,13 +1,13 @@
 #!/bin/sh
 # make.sh REGATHER OUT [PART...]: makes the rows of this folder again, in OUT/results; captures and walks are kept in OUT (20 GB). Parts:
 # capture, trees (every structure), steps (of the octree: leaves, places, ways), scenes (and frames of their paths), family (all LRU
-# caches); all of them when none is named. It runs in OUT, so that the rows' provenance names what lies there.
+# caches), charts; all of them when none is named. It runs in OUT, so that the rows' provenance names what lies there.
 set -eu
 regather=$(realpath "$1")
 mkdir -p "$2/results"
 cd "$2"
 shift 2
-parts=${*:-capture trees steps scenes family}
+parts=${*:-capture trees steps scenes family charts}
 orders="naive direction-binned+hashed:tile=16 hilbert:tile=16 hilbert"
 
 # replay CSV CAPTURE SPEC ARGUMENT...: walks the capture in the structure, and replays; what is there already is kept.
@@ -62,6 +62,17 @@ for part in $parts; do
         caches=4K,8K,16K,32K,64K,128K,256K,512K,1M,2M,4M,8M,16M,32M,64M:128:8
         replay family-left-balanced-kd room left-balanced-kd:found=1 --order $orders --layout heap-20 --cache $caches
         replay family-octree room octree:leaf=8,found=1 --order $orders --layout depth-first-20 --cache $caches
+        ;;
+    charts)
+        chart() {
+            kind=$1
+            shift
+            (cd results && "$regather" chart "$@" -o ../charts --kind "$kind" --force) > /dev/null
+            mv "charts/$kind.svg" results
+        }
+        chart traffic-by-layout left-balanced-kd.csv left-balanced-stack-free.csv median-kd.csv midpoint-kd.csv voxel-volume-kd.csv bvh.csv \
+            grid.csv hashed-grid.csv octree.csv
+        chart traffic-by-cache family-left-balanced-kd.csv family-octree.csv
         ;;
     *) echo "make.sh: unknown part $part" >&2; exit 2 ;;
     esac

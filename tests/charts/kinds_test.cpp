@@ -137,6 +137,21 @@ TEST(TrafficByLayout, TellsAnOrderingInTilesFromTheWholeImage) {
         EXPECT_THAT(text, HasSubstr(part));
 }
 
+TEST(TrafficByLayout, AMarkIsOfOneOrderingWhereAStructureLacksOthers) {
+    std::vector<Row> rows = {made_row("hilbert", 16, {}, 5000), made_row("hilbert", {}, {}, 90),
+                             made_row("hilbert", {}, {}, 70)};
+    rows[2].layout = "depth-first-20";
+    const std::string text = script(compose("traffic-by-layout", only(rows)), Picture::svg);
+    const auto times = [&](std::string_view part) {
+        std::size_t count = 0;
+        for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++count;
+        return count;
+    };
+    // Each mark is drawn once more in the legend.
+    EXPECT_EQ(times("pt 7"), 2u);
+    EXPECT_EQ(times("pt 6"), 3u);
+}
+
 Row netted(std::string ordering, std::uint64_t cache, std::uint64_t buffered, std::uint64_t traffic,
            std::uint64_t buffers) {
     Row row = made_row(std::move(ordering), {}, {}, traffic);

@@ -56,6 +56,23 @@ TEST(Layout, NorOverTheRowsOfTheFigures) {
         EXPECT_GT(drawn_without_collisions(folder).size(), 0u) << folder;
 }
 
+TEST(Layout, AKeyThatIsTooLongTakesAnotherLine) {
+    const auto chart_of = [](const std::string& label) {
+        Panel panel;
+        panel.up.scale = {false, 0, 1, {}};
+        panel.bare = true;
+        for (const std::string& key : {label, std::string("the other one")})
+            panel.lines.push_back({.label = key, .colour = "#000000", .points = {{0, 0}, {1, 1}}});
+        return draw({"title", "caption", {"across", {false, 0, 1, {}}}, {panel}});
+    };
+    // Words enough for two lines and a half.
+    std::string label = "word";
+    while (text_width(label, 12) < 2.5 * chart_of("x").width) label += " word";
+    const Chart chart = chart_of(label), wide = chart_of(std::string(200, 'x'));
+    EXPECT_EQ(chart.height, wide.height + 2 * 18);
+    EXPECT_THAT(collisions_of(chart), IsEmpty());
+}
+
 TEST(Layout, AHeatMapHasRoomForItsTitlesAndItsScale) {
     std::vector<HeatMap> maps;
     for (const char* title : {"naive", "hilbert:tile=16", "direction-binned:tile=16,bins=16", "morton"})

@@ -96,6 +96,15 @@ TEST(Series, NamesOnlyWhatDiffers) {
     const auto all = curves(layouts, Along::tile, {});
     EXPECT_THAT(labels(all), ElementsAre("Naive, heap-20", "Naive, veb-20"));
     EXPECT_NE(all[0].variant, all[1].variant);
+    // A layout that goes with the structure needs no word.
+    layouts[1].structure = "octree";
+    EXPECT_THAT(labels(curves(layouts, Along::tile, {})),
+                ElementsAre("Naive, left-balanced-kd", "Naive, octree"));
+    layouts.push_back(layouts[1]);
+    layouts[2].layout = "heap-20";
+    EXPECT_THAT(
+        labels(curves(layouts, Along::tile, {})),
+        ElementsAre("Naive, left-balanced-kd, heap-20", "Naive, octree, veb-20", "Naive, octree, heap-20"));
 }
 
 TEST(Series, APassForEachBinIsNoParameterOfItsOwn) {
