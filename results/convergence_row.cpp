@@ -14,6 +14,7 @@ constexpr Column convergence_columns[] = {
     column<&ConvergenceRow::radius, ConvergenceRow>("radius"),
     column<&ConvergenceRow::caustic_photons, ConvergenceRow>("caustic_photons"),
     column<&ConvergenceRow::samples, ConvergenceRow>("samples"),
+    column<&ConvergenceRow::sampling, ConvergenceRow>("sampling"),
     column<&ConvergenceRow::shadow_rays>("shadow_rays"),
     column<&ConvergenceRow::width>("width"),
     column<&ConvergenceRow::height>("height"),
@@ -54,6 +55,7 @@ constexpr Column ladder_columns[] = {
     column<&LadderRow::radius>("radius"),
     column<&LadderRow::caustic_photons>("caustic_photons"),
     column<&LadderRow::samples>("samples"),
+    column<&LadderRow::sampling>("sampling"),
 };
 
 }  // namespace

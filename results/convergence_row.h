@@ -16,6 +16,7 @@ struct LadderRow {
     Count gather_rays, photons, k;
     Number radius;  ///< Maximum radius of a gather [scene units]; empty: none.
     Count caustic_photons, samples;
+    std::string sampling;  ///< Of gather rays: a strategy's spec.
 };
 
 struct ConvergenceRow : LadderRow {

@@ -30,6 +30,7 @@ std::string setting_text(const ConvergenceRow& row) {
                        row.k.value_or(0));
     if (row.radius) out += fmt::format(", r {:.3g}", *row.radius);
     if (row.samples.value_or(1) > 1) out += fmt::format(", s {}", *row.samples);
+    if (!row.sampling.empty()) out += fmt::format(", {}", row.sampling.substr(0, row.sampling.find(':')));
     return out;
 }
 

@@ -62,6 +62,7 @@ capture::CaptureConfig capture_config(const Setting& setting, const ConvergenceC
     out.pixels.gather_rays = setting.gather_rays;
     out.pixels.shadow_rays = config.shadow_rays;
     out.pixels.samples = setting.samples;
+    if (!setting.sampling.empty()) out.pixels.sampling = setting.sampling;
     out.pixels.jitter = true;
     out.pixels.visualisation = setting.mode;
     out.pixels.seed = seed;
@@ -131,6 +132,7 @@ void Convergence::describe(results::ConvergenceRow& row, const Setting& setting)
     if (std::isfinite(setting.radius)) row.radius = setting.radius;
     row.caustic_photons = setting.caustic_photons;
     row.samples = setting.samples;
+    row.sampling = setting.sampling;
     row.shadow_rays = config_.shadow_rays;
     row.width = config_.width;
     row.height = config_.height;
@@ -152,7 +154,7 @@ bool Convergence::holds(const results::ConvergenceRow& row, const Setting& setti
     describe(own, setting);
     const auto key = [](const results::ConvergenceRow& r) {
         return std::tie(r.ladder, r.mode, r.gather_rays, r.photons, r.k, r.radius, r.caustic_photons,
-                        r.samples);
+                        r.samples, r.sampling);
     };
     return row.total_seconds && row.rmse && belongs(row) && key(row) == key(own);
 }

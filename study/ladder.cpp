@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "capture/sampling/gather_distribution.h"
 #include "results/convergence_row.h"
 #include "results/csv.h"
 #include "trace/error.h"
@@ -33,6 +34,17 @@ void add_steps(std::vector<Setting>& ladder, const Setting& base, std::initializ
 
 std::uint32_t whole(double value) {
     return static_cast<std::uint32_t>(std::lround(value));
+}
+
+/// With all its parameters; nothing for the default's.
+std::string sampling_of(std::string_view spec, const auto& refuse) {
+    try {
+        std::string text = capture::parse_sampling(spec).text;
+        return text == capture::default_sampling ? "" : text;
+    } catch (const trace::UsageError& error) {
+        refuse("sampling", trace::in_quotes(spec), error.what());
+        return "";
+    }
 }
 
 }  // namespace
@@ -114,6 +126,11 @@ std::vector<Setting> parse_ladder(std::string_view text, std::string_view file) 
         take("k", row.k, setting.k, 1, most_photons);
         take("caustic_photons", row.caustic_photons, setting.caustic_photons, 0, most_photons);
         take("samples", row.samples, setting.samples, 1, 1u << 20);
+        if (!row.sampling.empty()) {
+            if (setting.mode == capture::Visualisation::direct)
+                refuse("sampling", trace::in_quotes(row.sampling), "an empty cell: direct casts no such rays");
+            setting.sampling = sampling_of(row.sampling, refuse);
+        }
         if (row.radius) {
             if (*row.radius <= 0)
                 refuse("radius", fmt::to_string(*row.radius), "a length above 0, or an empty cell");

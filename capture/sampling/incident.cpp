@@ -16,6 +16,7 @@ constexpr trace::Parameter parameters[] = {
     {"floor", "25",
      "[%] of the density that looks at no photon: light from where no photon came is found, too"},
     {"smooth", "1", "1: half of each cell goes to its neighbours"},
+    {"shrink", "1", "1: shares go towards equal ones as far as so few photons may differ by chance"},
 };
 
 float brightness(Vec3 power) {
@@ -28,6 +29,7 @@ public:
         : guide_(guide),
           times_brdf_(times_brdf),
           smooth_(given.count("smooth") != 0),
+          shrink_(given.count("shrink") != 0),
           floor_(given.count("floor") / 100.0),
           table_(given.count("rows"), given.count("columns")),
           shares_(std::size_t{table_.rows()} * table_.columns()),
@@ -36,15 +38,21 @@ public:
     void look(const ShadedPoint& point) override {
         frame_ = Frame(point.surface.normal);
         std::fill(shares_.begin(), shares_.end(), 0.0f);
+        double squares = 0;
         spatial::nearest(guide_.photons, point.position, found_);
         for (std::size_t i = 0; i < found_.size(); ++i) {
             const std::uint32_t photon = found_[i].node;
             if (!guide_.is_witness(photon, point.surface)) continue;
             const trace::Photon& witness = guide_.photons.nodes()[photon];
-            shares_[table_.cell_of(local(-trace::decode_direction(witness)))] +=
-                brightness(trace::decode_power(witness.power));
+            const float power = brightness(trace::decode_power(witness.power));
+            shares_[table_.cell_of(local(-trace::decode_direction(witness)))] += power;
+            squares += static_cast<double>(power) * static_cast<double>(power);
         }
-        if (smooth_) smooth();
+        if (smooth_) {
+            smooth();
+            squares *= kept_by_smoothing;
+        }
+        if (shrink_) shrink(squares);
         if (times_brdf_) multiply(point.surface);
         table_.set(shares_, floor_);
     }
@@ -59,6 +67,19 @@ public:
 private:
     Vec3 local(Vec3 world) const {
         return {dot(frame_.tangent, world), dot(frame_.bitangent, world), dot(frame_.normal, world)};
+    }
+
+    /// Towards equal shares by as much of their unevenness as the photons' number explains (the positive part
+    /// of James & Stein's estimate): `noise` is what the sum of the squared differences from the mean would be
+    /// of photons that came from everywhere alike.
+    void shrink(double noise) {
+        double total = 0, unevenness = 0;
+        for (const float share : shares_) total += share;
+        const double mean = total / static_cast<double>(shares_.size());
+        for (const float share : shares_) unevenness += (share - mean) * (share - mean);
+        if (!(unevenness > 0)) return;
+        const double kept = std::max(0.0, 1 - noise / unevenness);
+        for (float& share : shares_) share = static_cast<float>(mean + kept * (share - mean));
     }
 
     /// Half of each cell to its neighbours; a row has none beyond the pole or the horizon, and keeps that
@@ -95,7 +116,10 @@ private:
     }
 
     const PhotonGuide& guide_;
-    bool times_brdf_, smooth_;
+    /// Of the sum of squares of independent cells: 1/2 and four times 1/8, squared.
+    static constexpr double kept_by_smoothing = 0.3125;
+
+    bool times_brdf_, smooth_, shrink_;
     double floor_;
     HemisphereTable table_;
     std::vector<float> shares_, smoothed_;
@@ -107,6 +131,7 @@ void check(const trace::Parameters& given) {
     trace::require_range("incident", "k", given.count("k"), 1, 1'000'000);
     trace::require_range("incident", "floor", given.count("floor"), 1, 100);
     trace::require_range("incident", "smooth", given.count("smooth"), 0, 1);
+    trace::require_range("incident", "shrink", given.count("shrink"), 0, 1);
 }
 
 }  // namespace
