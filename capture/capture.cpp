@@ -8,6 +8,7 @@
 #include <memory>
 #include <numeric>
 
+#include "capture/light_probe.h"
 #include "scenes/needs.h"
 #include "spatial/photons/photon_kd.h"
 #include "trace/error.h"
@@ -193,10 +194,14 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
               writers.caustic);
     }
 
+    const spatial::PhotonKd photons(global.heap);
+    const LightProbe probe(scene, caster, photons, global.config);
     const QueryPass query_pass(scene, caster, lights, config.pixels,
                                {.rays = writers.global && config.columns.rays,
                                 .caustics = caustics,
-                                .guide = {spatial::PhotonKd(global.heap), global.origin, caustics}});
+                                .guide = {photons, global.origin, caustics, [&](Vec3 origin, Vec3 direction) {
+                                              return probe.seen(origin, direction);
+                                          }}});
     Film film(config.pixels.width, config.pixels.height, config.pixels.samples);
     std::optional<Film> whole_film;
     if (packed) whole_film.emplace(config.pixels.width, config.pixels.height, config.pixels.samples);

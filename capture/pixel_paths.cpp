@@ -60,7 +60,9 @@ void PixelPaths::run(std::uint32_t pixel) {
                 ask(work_.queries, shaded_[i], Layer::indirect);
             } else {
                 const Shaded& at = shaded_[i];
-                distribution_->look({{at.material, at.normal, at.to_viewer}, at.position});
+                distribution_->look({{at.material, at.normal, at.to_viewer},
+                                     at.position,
+                                     caster_.offset(at.position, at.side)});
                 add_direct_light(shaded_[i], i);
                 add_gather_rays(shaded_[i], i);
             }

@@ -8,6 +8,7 @@
 
 #include "capture/sampling/incident.h"
 #include "capture/sampling/mixture.h"
+#include "capture/sampling/oracle.h"
 #include "trace/error.h"
 #include "trace/range.h"
 #include "trace/text.h"
@@ -102,6 +103,8 @@ std::span<const SamplingStrategy> table() {
         {"combined", "by the same table times the BRDF", incident_parameters(), make_combined, true},
         {"mis", "by the BRDF or by that table, each weighted (Veach & Guibas 1995)", mixture_parameters(),
          make_mixture, true},
+        {"oracle", "by a table of the light that gather rays would find: a ceiling, at any cost",
+         oracle_parameters(), make_oracle, true},
     };
     return all;
 }

@@ -17,6 +17,7 @@ namespace regather::capture {
 struct ShadedPoint {
     GatherPoint surface{};
     Vec3 position;  ///< [scene units]
+    Vec3 origin;    ///< Of rays that leave it [scene units].
 };
 
 struct GatherSample {

@@ -3,6 +3,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "capture/photon_pass.h"
@@ -18,6 +19,9 @@ struct PhotonGuide {
     spatial::PhotonKd photons;
     std::span<const PhotonOrigin> origin = {};  ///< In the order of the photons.
     bool caustics_apart = false;
+    /// [W / (m^2 sr)] What a gather ray finds, nothing kept or counted: light that surfaces reflect, as the
+    /// photons tell, by way of specular surfaces too, none that lights send.
+    std::function<Vec3(Vec3 origin, Vec3 direction)> seen = {};
 
     bool is_witness(std::uint32_t photon, const GatherPoint& at) const {
         if (origin[photon] == PhotonOrigin::light) return false;

@@ -50,7 +50,14 @@ struct Witnesses {
         heap = spatial::left_balanced(photons);
         origin.assign(heap.size(), PhotonOrigin::surface);
     }
-    PhotonGuide guide() const { return {spatial::PhotonKd(heap), origin, true}; }
+    /// What is seen: twice as bright towards -y as towards +y, and 6 more within 30 degrees of the normal.
+    PhotonGuide guide() const {
+        return {spatial::PhotonKd(heap), origin, true, [](Vec3, Vec3 direction) {
+                    const float light =
+                        (direction.y < 0 ? 2.0f : 1.0f) + (direction.z > 0.866f ? 6.0f : 0.0f);
+                    return Vec3{light, light, light};
+                }};
+    }
 };
 
 /// Directions over the upper hemisphere in the cells of a table, and the solid angle that each stands for
@@ -158,7 +165,101 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"incident:rows=2,columns=4,floor=10,smooth=0", 0.5f, 0, 1, {1, 0, 1}},
                     Case{"mis:brdf=30", 0.2f, 0.5f, 20, {-1, 0, 1}},
                     Case{"mis:brdf=60,heuristic=power", 0.2f, 0.5f, 20, {1, 0, 1}},
-                    Case{"combined:rows=8,columns=16", 0.2f, 0.5f, 20, {-1, 0, 1}}));
+                    Case{"combined:rows=8,columns=16", 0.2f, 0.5f, 20, {-1, 0, 1}},
+                    Case{"oracle:probes=2", 0.2f, 0.5f, 20, {-1, 0, 1}},
+                    Case{"oracle:rows=16,columns=8", 0.5f, 0, 1, {0, 0, 1}}));
+
+Vec3 towards(float x, float y, float z) {
+    return normalize(Vec3{x, y, z});
+}
+
+/// The density over the cosine's.
+double factor(const GatherDistribution& distribution, Vec3 direction) {
+    return distribution.pdf(direction) * std::numbers::pi / static_cast<double>(direction.z);
+}
+
+// Cells of the upper quarter of sin^2 see 7 and 8, the others 1 and 2: 3.75 in the mean.
+TEST(OracleSampling, GoesWhereLightIs) {
+    const Witnesses witnesses;
+    const PhotonGuide guide = witnesses.guide();
+    const Material white = surface_of(0.5f, 0, 1);
+    const auto distribution = parse_sampling("oracle:floor=20").make(guide);
+    distribution->look({{&white, {0, 0, 1}, {0, 0, 1}}, {1.05f, 2.05f, 3}, {1.05f, 2.05f, 3}});
+    const double mean = (7 + 8 + 3 * (1 + 2)) / 8.0;
+    EXPECT_NEAR(factor(*distribution, towards(0.1f, 0.2f, 1)), 0.8 * 7 / mean + 0.2, 1e-4);
+    EXPECT_NEAR(factor(*distribution, towards(0.2f, -0.1f, 1)), 0.8 * 8 / mean + 0.2, 1e-4);
+    EXPECT_NEAR(factor(*distribution, towards(-0.5f, 0.8f, 0.2f)), 0.8 * 1 / mean + 0.2, 1e-4);
+    EXPECT_NEAR(factor(*distribution, towards(0.5f, -0.8f, 0.2f)), 0.8 * 2 / mean + 0.2, 1e-4);
+}
+
+// The table's second row holds the edge at 40 degrees in none of its cells alone: the root of the mean
+// square.
+TEST(OracleSampling, ACellOfTwoLightsHasTheRootOfTheirMeanSquare) {
+    const Witnesses witnesses;
+    PhotonGuide guide = witnesses.guide();
+    guide.seen = [](Vec3, Vec3 direction) {  // in the only row: 3 in the half of sin^2 below 1/2, else 1
+        const float light = direction.z * direction.z > 0.5f ? 3.0f : 1.0f;
+        return direction.x > 0 ? Vec3{light, light, light} : Vec3{};
+    };
+    const Material white = surface_of(0.5f, 0, 1);
+    const auto distribution = parse_sampling("oracle:rows=1,columns=4,floor=1,probes=8").make(guide);
+    distribution->look({{&white, {0, 0, 1}, {0, 0, 1}}, {}, {}});
+    // Two of four cells, both alike; what they share is 99 %.
+    EXPECT_NEAR(factor(*distribution, towards(0.3f, 0.4f, 1)), 0.99 * 2 + 0.01, 1e-4);
+    EXPECT_NEAR(factor(*distribution, towards(-0.3f, 0.4f, 1)), 0.01, 1e-4);
+    guide.seen = [](Vec3, Vec3 direction) {
+        const float light = direction.x < 0 ? 2.0f : direction.z * direction.z > 0.5f ? 3.0f : 1.0f;
+        return Vec3{light, light, light};
+    };
+    distribution->look({{&white, {0, 0, 1}, {0, 0, 1}}, {}, {}});
+    const double mixed = std::sqrt((9 + 1) / 2.0);
+    EXPECT_NEAR(factor(*distribution, towards(0.3f, 0.4f, 1)), 0.99 * mixed / ((mixed + 2) / 2) + 0.01, 1e-4);
+}
+
+/// Photons from everywhere alike, with powers between 1 and 3.
+Witnesses even_witnesses() {
+    Witnesses even;
+    std::vector<trace::Photon> photons;
+    Sampler sampler(8, Stream::photon, 1);
+    for (int i = 0; i < 400; ++i) {
+        const float power = 1 + 2 * sampler.uniform();
+        photons.push_back(photon_from({1 + 0.1f * sampler.uniform(), 2 + 0.1f * sampler.uniform(), 3},
+                                      cosine_hemisphere(sampler.uniform(), sampler.uniform()),
+                                      {power, power, power}));
+    }
+    even.heap = spatial::left_balanced(photons);
+    return even;
+}
+
+double root_mean_square_from_cosine(const std::string& spec, const Witnesses& witnesses) {
+    const PhotonGuide guide = witnesses.guide();
+    const Material white = surface_of(0.5f, 0, 1);
+    const auto distribution = parse_sampling(spec).make(guide);
+    distribution->look({{&white, {0, 0, 1}, {0, 0, 1}}, {1.05f, 2.05f, 3}, {}});
+    double sum = 0;
+    const HemisphereTable cells(4, 16);
+    for (std::uint32_t cell = 0; cell < 64; ++cell) {
+        const double off = factor(*distribution, cells.middle_of(cell)) - 1;
+        sum += off * off / 64;
+    }
+    return std::sqrt(sum);
+}
+
+// 400 photons over 64 cells are 6.25 a cell: 40 % off by chance, and by their powers a little more.
+TEST(IncidentSampling, WhatChanceExplainsIsNoLight) {
+    const Witnesses even = even_witnesses();
+    const double raw = root_mean_square_from_cosine("incident:smooth=0,shrink=0,floor=1", even);
+    EXPECT_NEAR(raw, 0.42, 0.06);
+    EXPECT_LT(root_mean_square_from_cosine("incident:smooth=0,floor=1", even), raw / 3);
+    EXPECT_NEAR(root_mean_square_from_cosine("incident:shrink=0,floor=1", even) / raw, std::sqrt(0.3125),
+                0.08);
+    EXPECT_LT(root_mean_square_from_cosine("incident:floor=1", even), raw / 4);
+    // A direction that is there stays.
+    const Witnesses uneven;
+    EXPECT_NEAR(root_mean_square_from_cosine("incident:floor=1", uneven) /
+                    root_mean_square_from_cosine("incident:shrink=0,floor=1", uneven),
+                1, 0.03);
+}
 
 // Three quarters of the photons come from a tenth of a turn at the horizon.
 TEST(IncidentSampling, GoesWherePhotonsCameFrom) {
@@ -202,11 +303,14 @@ TEST(Sampling, SpecsThatCannotBeAreRefused) {
     const PhotonGuide none;
     EXPECT_THROW(parse_sampling("cosin"), trace::UsageError);
     EXPECT_THROW(parse_sampling("cosine:k=3"), trace::UsageError);
-    for (const char* const spec : {"incident:rows=65", "incident:columns=5", "incident:floor=0",
-                                   "incident:floor=101", "incident:smooth=2", "combined:k=0"})
+    for (const char* const spec :
+         {"incident:rows=65", "incident:columns=5", "incident:floor=0", "incident:floor=101",
+          "incident:smooth=2", "incident:shrink=2", "combined:k=0", "oracle:probes=0", "oracle:floor=0",
+          "oracle:brdf=2", "mis:brdf=0"})
         EXPECT_THROW(parse_sampling(spec).make(none), trace::UsageError) << spec;
     EXPECT_EQ(parse_sampling("brdf").text, default_sampling);
-    EXPECT_EQ(parse_sampling("incident:rows=2").text, "incident:rows=2,columns=16,k=100,floor=25,smooth=1");
+    EXPECT_EQ(parse_sampling("incident:rows=2").text,
+              "incident:rows=2,columns=16,k=400,floor=10,smooth=1,shrink=1");
 }
 
 }  // namespace
