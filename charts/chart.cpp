@@ -54,6 +54,8 @@ constexpr ChartKind kinds_table[] = {
      "direct visualisation at 2 or more numbers of photons", any<results::ConvergenceRow>, bias_by_photons},
     {"bias-by-k", "Bias and variance by photons of a gather",
      "direct visualisation at 2 or more k with the photons held", any<results::ConvergenceRow>, bias_by_k},
+    {"computation", "Floating-point operations by parameter", "rows of the computation by parameter",
+     any<results::ComputationRow>, computation},
     {"stability", "Stiff and extreme cases: error and what is allowed", "rows of the stability study",
      any<results::StabilityRow>, stability},
 };

@@ -29,6 +29,8 @@ Chart error_by_render_time(const ChartKind& kind, const results::Rows& rows, con
 Chart efficiency(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart bias_by_photons(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart bias_by_k(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
+// Estimates of floating-point operations: how much each parameter moves the total.
+Chart computation(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 // Cases of the stability study.
 Chart stability(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 

@@ -21,6 +21,8 @@ constexpr Subcommand table[] = {
     {"cachesim", "simulate caches on an address trace of your own", add_cachesim},
     {"machines", "list the machines there are, or show one with the source of each figure", add_machines},
     {"chart", "draw charts (SVG and PNG) from CSV rows", add_chart},
+    {"computation", "floating-point operations of a frame: the paper's Table 2, and of a capture",
+     add_computation},
     {"converge", "measure error against run time over a ladder of settings", add_converge},
     {"stability", "measure errors in stiff and extreme cases against what is allowed", add_stability},
     {"run", "capture, reorder, replay and chart what an experiment file asks for", add_run},

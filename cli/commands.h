@@ -34,6 +34,7 @@ void add_layouts(Command& command);
 void add_structures(Command& command);
 void add_machines(Command& command);
 void add_chart(Command& command);
+void add_computation(Command& command);
 void add_converge(Command& command);
 void add_stability(Command& command);
 void add_run(Command& command);

@@ -12,9 +12,9 @@
 #include "cachesim/cache_list.h"
 #include "experiment/address_sweep.h"
 #include "experiment/measurement.h"
+#include "experiment/traces/one_capture.h"
 #include "reorder/tiling.h"
 #include "replay/frame.h"
-#include "trace/digest.h"
 #include "trace/error.h"
 #include "trace/text.h"
 
@@ -49,17 +49,6 @@ void check_length(std::string_view option, std::size_t found, std::size_t traces
             "{}: found {} for {} traces, expected one for all or one for each", option, found, traces));
 }
 
-const std::string* kind_of_rays(const trace::TraceInfo& info) {
-    const trace::Json* const kind = info.parameters.find("rays");
-    return kind ? kind->text() : nullptr;
-}
-
-std::string part_name(const trace::TraceInfo& info) {
-    if (const std::string* const kind = kind_of_rays(info))
-        return fmt::format("{} rays", trace::shown(*kind));
-    return info.map == trace::map_names[0] ? "photons" : fmt::format("{} photons", info.map);
-}
-
 /// Columns that say what was walked.
 bool of_the_structure(std::string_view column) {
     return column == "photon" || column.starts_with("tree_") || column.starts_with("element_");
@@ -77,11 +66,6 @@ struct Part {
         : trace(folder), name(part_name(trace.info())), parsed(reorder::parse_ordering(ordering)) {}
 
     const trace::TraceInfo& info() const { return trace.info(); }
-    /// As the capture was asked for.
-    const trace::Json& capture() const {
-        const trace::Json* const whole = info().parameters.find("capture");
-        return kind_of_rays(info()) != nullptr && whole ? *whole : info().parameters;
-    }
     bool shares_memory_with(const Part& other) const {
         const auto columns = [](const Part& part) {
             std::map<std::string, trace::ColumnDigest> held;
@@ -96,26 +80,6 @@ struct Part {
     }
 };
 
-void check_one_capture(const Part& first, const Part& other) {
-    const auto differ = [&](std::string_view field, const auto& a, const auto& b) {
-        if (a == b) return;
-        throw trace::DataError(fmt::format(
-            "{}: {}: found {}, expected {} as in {}: the traces of a frame are of one capture",
-            (other.trace.folder() / "trace.json").string(), field, b, a, first.trace.folder().string()));
-    };
-    const trace::TraceInfo &a = first.info(), &b = other.info();
-    differ("scene", trace::shown(a.scene), trace::shown(b.scene));
-    differ("frame", a.frame ? fmt::format("{}", *a.frame) : "none",
-           b.frame ? fmt::format("{}", *b.frame) : "none");
-    differ("image_width", a.image_width, b.image_width);
-    differ("image_height", a.image_height, b.image_height);
-    differ("seed", a.seed, b.seed);
-    if (!(first.capture() == other.capture()))
-        throw trace::DataError(
-            fmt::format("{}: parameters: found those of another capture than {} has, expected one capture",
-                        (other.trace.folder() / "trace.json").string(), first.trace.folder().string()));
-}
-
 std::deque<Part> opened(const CombinedFrame& frame) {
     check_length("--order", frame.orderings.size(), frame.traces.size());
     check_length("--layout", frame.layouts.size(), frame.traces.size());
@@ -126,7 +90,7 @@ std::deque<Part> opened(const CombinedFrame& frame) {
     std::uint64_t end = 0;
     for (std::size_t i = 0; i < frame.traces.size(); ++i) {
         Part& part = parts.emplace_back(frame.traces[i], nth(frame.orderings, i));
-        check_one_capture(parts.front(), part);
+        check_one_capture(parts.front().trace, part.trace, "the traces of a frame");
         for (std::size_t j = 0; j < i; ++j)
             if (parts[j].name == part.name)
                 throw trace::UsageError(fmt::format("{}: found {} as in {}, expected each kind once",
@@ -147,17 +111,6 @@ std::deque<Part> opened(const CombinedFrame& frame) {
 replay::FramePart replayed(Part& part) {
     return {&part.measurement->walks(), &part.measurement->layout(), part.base, part.ordered.permutation,
             part.trace.column<std::uint32_t>("query_pixel")};
-}
-
-trace::Json parameters_of(const std::deque<Part>& parts) {
-    trace::Json all = trace::Json::object();
-    for (const Part& part : parts)
-        all[part.name] = trace::Json::object(
-            {{"checksum", part.trace.checksum()}, {"parameters", part.info().parameters}});
-    trace::Json out = trace::Json::object({{"frame", all}});
-    if (const trace::Json* const renderer = parts.front().info().parameters.find("renderer"))
-        out["renderer"] = *renderer;
-    return out;
 }
 
 }  // namespace
@@ -231,10 +184,10 @@ FrameResult run(const CombinedFrame& frame, const ProgressListener& progress) {
                 add(unit, results::apart, frame.machines[m], parts[p], apart[p][m][0]);
         }
     }
-    std::string checksums;
-    for (const Part& part : parts) checksums += part.trace.checksum();
-    result.checksum = trace::digest_of(checksums);
-    result.parameters = parameters_of(parts);
+    std::vector<const trace::TraceReader*> traces;
+    for (const Part& part : parts) traces.push_back(&part.trace);
+    result.checksum = checksum_of(traces);
+    result.parameters = parameters_of(traces, "frame");
     return result;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "results/cache_row.h"
+#include "results/computation_row.h"
 #include "results/convergence_row.h"
 #include "results/csv.h"
 #include "results/detail_row.h"
@@ -22,8 +23,8 @@ namespace regather::results {
 /// The kinds that a file may hold, in the order in which its header is held against them: the columns that
 /// one needs are not all among those of a later one.
 template <template <class...> class List>
-using EachKind = List<ConvergenceRow, StabilityRow, RaceRow, FrameRow, MachineRow, SamplingRow, TimelineRow,
-                      DetailRow, CacheRow, Row>;
+using EachKind = List<ConvergenceRow, StabilityRow, ComputationRow, RaceRow, FrameRow, MachineRow,
+                      SamplingRow, TimelineRow, DetailRow, CacheRow, Row>;
 
 /// The first kind whose needed columns are all in the header; where there is none, the one with most of the
 /// columns (of equals the last), which then refuses the file. Throws trace::DataError for a text without a
