@@ -57,7 +57,7 @@ private:
         for (const float share : shares) unevenness += (share - mean) * (share - mean);
         if (!(unevenness > 0)) return;
         const double kept = std::max(0.0, 1 - noise / unevenness);
-        for (float& share : shares) share = static_cast<float>(share);
+        for (float& share : shares) share = static_cast<float>(mean + kept * (share - mean));
     }
 
     /// Half of each cell to its neighbours; a row has none beyond the pole or the horizon, and keeps that
