@@ -40,7 +40,7 @@ private:
                 const double light = brightness(guide_.seen(point.origin, direction));
                 squares += light * light;
             }
-            shares[cell] = static_cast<float>(squares);
+            shares[cell] = static_cast<float>(std::sqrt(squares / (probes_ * probes_)));
         }
     }
 
