@@ -11,6 +11,8 @@ extern const char arena[];
 extern const char cornell[];
 extern const char caustics[];
 extern const char prism[];
+extern const char meadow[];
+extern const char keyhole[];
 }  // namespace embedded
 
 std::span<const EmbeddedScene> catalogue() {
@@ -29,6 +31,9 @@ std::span<const EmbeddedScene> catalogue() {
          embedded::caustics},
         {"prism", "glass prisms among strongly coloured panels in a white room: colour bleeding",
          embedded::prism},
+        {"meadow", "a hundred thousand blades of grass, stones and a log: high geometric detail",
+         embedded::meadow},
+        {"keyhole", "a dark room beside a bright one, lit only through a door left ajar", embedded::keyhole},
     };
     return rows;
 }

@@ -18,6 +18,7 @@ constexpr std::string_view radiance = "three radiances [W/(m^2 sr)], each from 0
 constexpr std::string_view power = "three powers [W], each from 0 to 1e12, not all zero";
 constexpr std::string_view mesh_file =
     "the name of an .obj, .ply, .gltf or .glb file, relative to the scene file";
+constexpr std::string_view seed = "a whole number, from 0 to 4294967295";
 constexpr std::string_view scale = "a factor, above 0 and at most 1e6";
 constexpr std::string_view up_axis = "\"y\" or \"z\"";
 
@@ -157,6 +158,27 @@ std::span<const Kind> shape_kinds() {
           {"phase_degrees", optional, degrees},
           {"depth", optional, "a length [m], above amplitude and at most 1e6"},
           {"cells", required, "a whole number of cells, from 1 to 4096"}}},
+        {"terrain",
+         {{"type", required, "the type of a shape"},
+          {"material", required, material},
+          {"corner", required, point},
+          {"size", required, "two lengths [m], each above 0 and at most 1e6"},
+          {"amplitude", required, "a length [m], from 0 to 1e6"},
+          {"wavelength", required, positive_length},
+          {"seed", required, seed},
+          {"cells", required, "two whole numbers of cells, each from 1 to 4096"},
+          {"growth", optional, "a list of what grows on the terrain"}}},
+        {"tuft",
+         {{"type", required, "the type of a shape"},
+          {"material", required, material},
+          {"center", required, point},
+          {"radius", required, positive_length},
+          {"blades", required, "a whole number of blades, from 1 to 1000000"},
+          {"height", required, positive_length},
+          {"width", required, positive_length},
+          {"reach", required, positive_length},
+          {"segments", required, "a whole number of segments, from 1 to 64"},
+          {"seed", required, seed}}},
         {"mesh",
          {{"type", required, "the type of a shape"},
           {"file", required, mesh_file},
@@ -172,6 +194,19 @@ std::span<const Kind> shape_kinds() {
           {"object", required, "the name of an object"},
           {"at", required, "a list of places [x, y, z] or [x, y, z, degrees about the z axis]"}}}};
     return kinds;
+}
+
+const Kind& growth_kind() {
+    static const Kind kind{
+        "growth",
+        {{"objects", required, "a list of names of objects, at least one"},
+         {"count", required, "a whole number of places, from 1 to 1000000"},
+         {"seed", required, seed},
+         {"margin", optional, "a length [m], from 0 to less than half of the terrain's edge"},
+         {"sink", optional, "a length [m], from 0 to 1e6"},
+         {"scale", optional, "two factors, the least and the largest, each from 1e-6 to 1e6"},
+         {"clear", optional, "a list of discs [x, y, radius] in metres"}}};
+    return kind;
 }
 
 std::span<const Kind> material_kinds() {

@@ -16,8 +16,10 @@ const Kind& camera_path_kind();
 const Kind& key_frame_kind();
 /// Told apart by their key "type": rectangle (also without the key), sphere, mesh.
 std::span<const Kind> light_kinds();
-/// Told apart by their key "type": quad, patch, box, sphere, cylinder, lathe, torus, ripple, mesh, instances.
+/// Told apart by their key "type": quad, patch, box, sphere, cylinder, lathe, torus, ripple, terrain,
+/// tuft, mesh, instances.
 std::span<const Kind> shape_kinds();
+const Kind& growth_kind();  ///< In the list `growth` of a terrain.
 /// Told apart by their key "kind": diffuse, glossy, mirror, dielectric.
 std::span<const Kind> material_kinds();
 

@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "scenes/coordinates.h"
+#include "scenes/growth.h"
 #include "scenes/loader.h"
 #include "scenes/material.h"
 #include "scenes/mesh_material.h"
+#include "scenes/placement.h"
 #include "scenes/shape.h"
 #include "trace/error.h"
 #include "trace/text.h"
@@ -27,30 +29,6 @@ constexpr double most_watts = 1e12;
 constexpr double least_sine = 1e-4;  // Of the angle between view and up.
 constexpr std::size_t most_text = 2000;
 constexpr std::uint32_t most_frames = 1'000'000;
-
-/// y becomes z (where `y_is_up`), then scale, turn about the z axis, move.
-struct Placement {
-    bool y_is_up = false;
-    double scale = 1, degrees = 0;
-    std::array<double, 3> translate{};
-
-    void apply(Surface& surface) const {
-        const double angle = degrees * std::numbers::pi / 180, cosine = std::cos(angle),
-                     sine = std::sin(angle);
-        for (Vec3& v : surface.vertices) {
-            if (y_is_up) v = {v.x, -v.z, v.y};
-            const double x = scale * v.x, y = scale * v.y;
-            v = {static_cast<float>(cosine * x - sine * y + translate[0]),
-                 static_cast<float>(sine * x + cosine * y + translate[1]),
-                 static_cast<float>(scale * v.z + translate[2])};
-        }
-        for (Vec3& n : surface.normals) {
-            if (y_is_up) n = {n.x, -n.z, n.y};
-            n = {static_cast<float>(cosine * n.x - sine * n.y), static_cast<float>(sine * n.x + cosine * n.y),
-                 n.z};
-        }
-    }
-};
 
 /// Triangles with a material each.
 struct Piece {
@@ -277,7 +255,7 @@ private:
         if (node.has("scale"))
             placement.scale =
                 node["scale"].number(0, most_metres, expected(kind, "scale"), Field::Ends::open_low);
-        placement.degrees = Coordinates::degrees(node, kind, "rotate_z_degrees");
+        placement.turn(Coordinates::degrees(node, kind, "rotate_z_degrees"));
         if (node.has("translate")) placement.translate = Coordinates::absolute(node, kind, "translate");
         for (std::size_t axis = 0; axis < 3; ++axis) placement.translate[axis] -= coordinates.origin()[axis];
         Piece piece{mesh.surface, mesh.triangle_material};
@@ -329,23 +307,37 @@ private:
             const Kind& kind = shape.check(shape_kinds(), "type", "shape");
             if (kind.name == "instances")
                 shape["type"].fail(trace::in_quotes(kind.name), "a shape that is not made of objects");
+            if (shape.has("growth")) shape["growth"].fail("growth in an object", "it in the scene's shapes");
             pieces.push_back(read_piece(shape, kind, own));
             require_room_for(shape, triangles += pieces.back().surface.triangles.size());
         }
         if (pieces.empty()) node.fail("an empty list", "at least one shape");
     }
 
-    void add_instances(const Field& node, const Kind& kind) {
-        const std::string& name = node["object"].text(expected(kind, "object"));
+    const std::vector<Piece>& object_named(const std::string& name, const Field& node) const {
         const auto found = objects_.find(name);
-        if (found == objects_.end()) {
-            std::vector<std::string_view> names;
-            for (const auto& [known, pieces] : objects_) names.push_back(known);
-            if (names.empty())
-                node["object"].fail(trace::in_quotes(name), "an object, and the scene has none");
-            node["object"].fail("unknown object " + trace::in_quotes(name),
-                                trace::alternatives(trace::nearest_words(name, names)));
+        if (found != objects_.end()) return found->second;
+        std::vector<std::string_view> names;
+        for (const auto& [known, pieces] : objects_) names.push_back(known);
+        if (names.empty()) node.fail(trace::in_quotes(name), "an object, and the scene has none");
+        node.fail("unknown object " + trace::in_quotes(name),
+                  trace::alternatives(trace::nearest_words(name, names)));
+    }
+
+    void add_object(const std::vector<Piece>& pieces, const Placement& placement, const Field& place) {
+        for (Piece piece : pieces) {
+            require_room_for(place, piece.surface.triangles.size());
+            placement.apply(piece.surface);
+            if (const std::uint64_t lost = degenerate_count(piece.surface); lost > 0)
+                note_flat(place, fmt::format("{} triangles without area in 32-bit floats", lost),
+                          "a place nearer to the others");
+            append(piece, -1);
         }
+    }
+
+    void add_instances(const Field& node, const Kind& kind) {
+        const std::vector<Piece>& pieces =
+            object_named(node["object"].text(expected(kind, "object")), node["object"]);
         const std::string_view wanted = expected(kind, "at");
         for (const Field& place : node["at"].elements(wanted)) {
             const std::vector<Field> values = place.elements(wanted);
@@ -355,15 +347,19 @@ private:
             for (std::size_t axis = 0; axis < 3; ++axis)
                 placement.translate[axis] = values[axis].number(-most_coordinate, most_coordinate, wanted) -
                                             coordinates_.origin()[axis];
-            if (values.size() == 4) placement.degrees = values[3].number(-360, 360, wanted);
-            for (Piece piece : found->second) {
-                require_room_for(place, piece.surface.triangles.size());
-                placement.apply(piece.surface);
-                if (const std::uint64_t lost = degenerate_count(piece.surface); lost > 0)
-                    note_flat(place, fmt::format("{} triangles without area in 32-bit floats", lost),
-                              "a place nearer to the others");
-                append(piece, -1);
-            }
+            if (values.size() == 4) placement.turn(values[3].number(-360, 360, wanted));
+            add_object(pieces, placement, place);
+        }
+    }
+
+    void add_growth(const Field& node, const Terrain& terrain) {
+        const Growth growth = read_growth(node, terrain, coordinates_);
+        std::vector<const std::vector<Piece>*> objects;
+        for (std::size_t i = 0; const Field& name : node["objects"].elements())
+            objects.push_back(&object_named(growth.objects[i++], name));
+        for (std::uint32_t number = 0; number < growth.count; ++number) {
+            const Place place = place_of(growth, terrain, number, node);
+            add_object(*objects[place.object], place.placement, node);
         }
     }
 
@@ -374,6 +370,10 @@ private:
         } else {
             append(read_piece(node, kind, coordinates_), -1);
         }
+        if (kind.name != "terrain" || !node.has("growth")) return;
+        const auto terrain = std::get<Terrain>(read_shape(node, kind, coordinates_));
+        for (const Field& growth : node["growth"].elements(expected(kind, "growth")))
+            add_growth(growth, terrain);
     }
 
     // --- lights ---

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 namespace regather::scenes {
 
 namespace {
 
 constexpr std::uint32_t most_cells = 10'000, most_segments = 4096, most_ripple_cells = 4096;
+constexpr std::uint32_t most_blades = 1'000'000, most_blade_segments = 64;
+constexpr double most_wavelengths = 1e6;  // Along a terrain's edge.
 
 std::uint32_t read_segments(const Field& node, const Kind& kind, std::string_view key = "segments") {
     return node[key].whole(3, most_segments, expected(kind, key));
@@ -124,6 +128,46 @@ Ripple read_ripple(const Field& node, const Kind& kind, const Coordinates& coord
     return ripple;
 }
 
+std::uint32_t read_seed(const Field& node, const Kind& kind) {
+    return node["seed"].whole(0, std::numeric_limits<std::uint32_t>::max(), expected(kind, "seed"));
+}
+
+Terrain read_terrain(const Field& node, const Kind& kind, const Coordinates& coordinates) {
+    Terrain terrain;
+    terrain.corner = coordinates.point(node, kind, "corner");
+    const std::string_view wanted = expected(kind, "size");
+    const std::vector<Field> two = node["size"].elements(wanted);
+    if (two.size() != 2) node["size"].fail(fmt::format("a list of {}", two.size()), wanted);
+    terrain.amplitude = Coordinates::not_negative(node, kind, "amplitude");
+    terrain.wavelength = Coordinates::positive(node, kind, "wavelength");
+    for (std::size_t i = 0; i < 2; ++i) {
+        terrain.size[i] = static_cast<float>(two[i].number(0, most_metres, wanted, Field::Ends::open_low));
+        if (terrain.size[i] / static_cast<double>(terrain.wavelength) > most_wavelengths)
+            node["wavelength"].fail(fmt::format("{:.6g}", terrain.wavelength),
+                                    "at least a millionth of the terrain's edges");
+    }
+    terrain.seed = read_seed(node, kind);
+    const std::vector<Field> counts = node["cells"].elements(expected(kind, "cells"));
+    if (counts.size() != 2)
+        node["cells"].fail(fmt::format("a list of {}", counts.size()), expected(kind, "cells"));
+    for (std::size_t i = 0; i < 2; ++i)
+        terrain.cells[i] = counts[i].whole(1, most_ripple_cells, expected(kind, "cells"));
+    return terrain;
+}
+
+Tuft read_tuft(const Field& node, const Kind& kind, const Coordinates& coordinates) {
+    Tuft tuft;
+    tuft.center = coordinates.point(node, kind, "center");
+    tuft.radius = Coordinates::positive(node, kind, "radius");
+    tuft.blades = node["blades"].whole(1, most_blades, expected(kind, "blades"));
+    tuft.height = Coordinates::positive(node, kind, "height");
+    tuft.width = Coordinates::positive(node, kind, "width");
+    tuft.reach = Coordinates::positive(node, kind, "reach");
+    tuft.segments = node["segments"].whole(1, most_blade_segments, expected(kind, "segments"));
+    tuft.seed = read_seed(node, kind);
+    return tuft;
+}
+
 }  // namespace
 
 Shape read_shape(const Field& node, const Kind& kind, const Coordinates& coordinates) {
@@ -136,6 +180,8 @@ Shape read_shape(const Field& node, const Kind& kind, const Coordinates& coordin
     if (kind.name == "lathe") return read_lathe(node, kind, coordinates);
     if (kind.name == "torus") return read_torus(node, kind, coordinates);
     if (kind.name == "ripple") return read_ripple(node, kind, coordinates);
+    if (kind.name == "terrain") return read_terrain(node, kind, coordinates);
+    if (kind.name == "tuft") return read_tuft(node, kind, coordinates);
     return read_quad(node, kind, coordinates);
 }
 

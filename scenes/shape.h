@@ -6,11 +6,13 @@
 
 #include "scenes/coordinates.h"
 #include "scenes/revolution.h"
+#include "scenes/terrain.h"
 #include "scenes/tessellation.h"
+#include "scenes/tuft.h"
 
 namespace regather::scenes {
 
-using Shape = std::variant<Quad, Patch, Box, Sphere, Cylinder, Lathe, Torus, Ripple>;
+using Shape = std::variant<Quad, Patch, Box, Sphere, Cylinder, Lathe, Torus, Ripple, Terrain, Tuft>;
 
 /// An object of one of shape_kinds() other than mesh and instances, or a rectangle or sphere light, which has
 /// the keys of a quad without division or of a sphere. Refuses what is wrong in it.

@@ -15,8 +15,12 @@ float between(float from, float to, std::uint32_t i, std::uint32_t n) {
     return i == n ? to : static_cast<float>(from + (static_cast<double>(to) - from) * i / n);
 }
 
-// The two triangles of each cell of an (nu + 1) x (nv + 1) grid of vertices that starts at `first`, u
-// fastest.
+std::uint32_t ring_count(const Sphere& sphere) {
+    return std::max(2u, sphere.segments / 2);
+}
+
+}  // namespace
+
 void add_grid_triangles(Surface& surface, std::uint32_t first, std::uint32_t nu, std::uint32_t nv) {
     for (std::uint32_t j = 0; j < nv; ++j)
         for (std::uint32_t i = 0; i < nu; ++i) {
@@ -25,12 +29,6 @@ void add_grid_triangles(Surface& surface, std::uint32_t first, std::uint32_t nu,
             surface.triangles.push_back({a, c, d});
         }
 }
-
-std::uint32_t ring_count(const Sphere& sphere) {
-    return std::max(2u, sphere.segments / 2);
-}
-
-}  // namespace
 
 std::uint64_t triangle_count(const Quad& quad) {
     return 2ull * quad.divide[0] * quad.divide[1];

@@ -51,6 +51,10 @@ struct Ripple {
     std::uint32_t cells = 64;  ///< Along each edge, >= 1.
 };
 
+/// The two triangles of each cell of an (nu + 1) x (nv + 1) grid of vertices that starts at `first`, u
+/// fastest; they face along u x v.
+void add_grid_triangles(Surface& surface, std::uint32_t first, std::uint32_t nu, std::uint32_t nv);
+
 std::uint64_t triangle_count(const Quad&);
 std::uint64_t triangle_count(const Patch&);
 std::uint64_t triangle_count(const Box&);

@@ -57,6 +57,19 @@ TEST(PhotonPass, PhotonsBeyondTheAskedNumberAreCutOff) {
     EXPECT_GT(cut_off, 1);
 }
 
+TEST(PhotonPass, FewPhotonsReachTheDarkRoomOfTheKeyhole) {
+    // Each has passed the gap, a hundredth of the bright room's surface, on one of a handful of flights.
+    const PhotonPass pass = trace(scenes::load_scene("keyhole"), 50000);
+    std::size_t dark = 0;
+    for (std::size_t i = 0; i < pass.photons.size(); ++i) {
+        if (pass.photons[i].position.x >= 4.75f) continue;
+        ++dark;
+        ASSERT_EQ(pass.origin[i], PhotonOrigin::surface);
+    }
+    EXPECT_GT(dark, 500u);
+    EXPECT_LT(dark, 5000u);
+}
+
 TEST(PhotonPass, TheEmittedPowerIsTheLights) {
     const PhotonTally tally = trace(closed_box(0.5), 20000).tally;
     EXPECT_NEAR(tally.emitted[0], 3, 1e-4);

@@ -100,7 +100,7 @@ TEST(CameraPath, TheFirstFrameOfEachEmbeddedPathIsItsStandingCamera) {
         EXPECT_EQ(first.target, scene.camera.target) << entry.name;
         EXPECT_EQ(first.up, scene.camera.up) << entry.name;
     }
-    EXPECT_EQ(paths, 5u);
+    EXPECT_EQ(paths, 7u);
 }
 
 std::string with_path(const std::string& path) {

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "scenes/catalogue.h"
@@ -14,7 +16,7 @@ namespace regather::scenes {
 namespace {
 
 TEST(Embedded, EveryRowLoadsUnderItsOwnName) {
-    ASSERT_EQ(catalogue().size(), 8u);
+    ASSERT_EQ(catalogue().size(), 10u);
     for (const EmbeddedScene& entry : catalogue()) {
         const Scene scene = load_scene(entry.name);
         EXPECT_EQ(scene.name, entry.name);
@@ -74,10 +76,10 @@ std::vector<Corners> shell(const Scene& scene) {
 }
 
 TEST(Embedded, TheWallsAreWatertightAndFaceInward) {
-    const std::pair<const char*, double> volumes[] = {{"room", 10.0 * 8 * 3},   {"box", 2.0 * 2 * 2},
-                                                      {"furnace", 1},           {"house", 12.0 * 9 * 2.7},
-                                                      {"arena", 24.0 * 18 * 6}, {"caustics", 4.0 * 4 * 2.6},
-                                                      {"prism", 5.0 * 5 * 3}};
+    const std::pair<const char*, double> volumes[] = {
+        {"room", 10.0 * 8 * 3},    {"box", 2.0 * 2 * 2},      {"furnace", 1},
+        {"house", 12.0 * 9 * 2.7}, {"arena", 24.0 * 18 * 6},  {"caustics", 4.0 * 4 * 2.6},
+        {"prism", 5.0 * 5 * 3},    {"meadow", 7.0 * 7 * 3.6}, {"keyhole", 7.6 * 4 * 2.6}};
     for (const auto& [name, expected] : volumes) {
         const Scene scene = load_scene(name);
         const std::vector<Corners> walls = shell(scene);
@@ -190,6 +192,59 @@ TEST(Embedded, TheCornellBoxHasTheMeasuredSizes) {
     };
     EXPECT_EQ(tallest(-0.2f, -0.15f), 0.165f);
     EXPECT_EQ(tallest(-0.4f, -0.35f), 0.33f);
+}
+
+TEST(Embedded, TheMeadowHasAHundredThousandBlades) {
+    // 4600 clumps of 22 blades (14 + 6 + 2, 12 + 8 + 2, 15 + 4 + 3, 10 + 10 + 2, 16 + 5 + 1), five triangles
+    // each.
+    const Scene meadow = load_scene("meadow");
+    std::uint64_t blades = 0;
+    double area = 0;
+    for (std::size_t t = 0; t < meadow.triangles.size(); ++t) {
+        const Material& material = meadow.materials[meadow.triangle_material[t]];
+        EXPECT_EQ(material.kind, MaterialKind::diffuse);
+        if (material.name.find("grass") == std::string::npos) continue;
+        ++blades;
+        const auto [a, b, c] = meadow.triangles[t];
+        area += meshes::triangle_area(meadow.vertices[a], meadow.vertices[b], meadow.vertices[c]);
+    }
+    EXPECT_EQ(blades, 4600u * 22 * 5);
+    // High detail: more surface than the ground below has, in pieces of a few square centimetres.
+    EXPECT_GT(area, 49);
+    EXPECT_LT(area / 101'200, 0.002);
+    EXPECT_EQ(meadow.lights.size(), 2u);
+}
+
+TEST(Embedded, InTheDarkRoomOfTheKeyholeNoPointCanSeeTheLight) {
+    // All of the room lies behind the lamp, which emits forward only: from x = 4.75, where the bright room
+    // begins.
+    const Scene keyhole = load_scene("keyhole");
+    ASSERT_EQ(keyhole.lights.size(), 1u);
+    const AreaLight& lamp = keyhole.lights[0];
+    EXPECT_EQ(lamp.normal(), (Vec3{1, 0, 0}));
+    std::size_t dark = 0, glossy = 0;
+    std::set<std::string> glossy_names;
+    for (std::size_t t = 0; t < keyhole.triangles.size(); ++t) {
+        const Material& material = keyhole.materials[keyhole.triangle_material[t]];
+        if (material.kind == MaterialKind::glossy) {
+            ++glossy;
+            glossy_names.insert(material.name);
+        } else {
+            EXPECT_EQ(material.kind, MaterialKind::diffuse);
+        }
+        bool inside = true;
+        for (const std::uint32_t corner : keyhole.triangles[t])
+            inside = inside && keyhole.vertices[corner].x <= 4.75f;
+        if (!inside) continue;
+        ++dark;
+        for (const std::uint32_t corner : keyhole.triangles[t])
+            EXPECT_LT(dot(keyhole.vertices[corner] - lamp.corner, lamp.normal()), -0.04f);
+    }
+    EXPECT_GT(dark, keyhole.triangles.size() / 2);
+    EXPECT_GT(glossy, 0u);
+    EXPECT_EQ(glossy_names.size(), 1u);
+    EXPECT_LT(keyhole.camera.position.x, 4.6f);
+    for (const KeyFrame& key : keyhole.camera_path) EXPECT_LT(key.position.x, 4.6f);
 }
 
 TEST(Embedded, TheFurnaceEmitsEvenlyFromAllOfItsTriangles) {

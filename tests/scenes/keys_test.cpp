@@ -25,7 +25,7 @@ TEST(Keys, TheFormatsPageNamesEveryKeyAndKind) {
     if (source == nullptr) GTEST_SKIP() << "REGATHER_SOURCE_DIR is set by ctest";
     std::ifstream file(std::string(source) + "/docs/scene_format.md");
     const std::string page{std::istreambuf_iterator<char>(file), {}};
-    std::vector<Kind> kinds{scene_kind(), camera_kind(), camera_path_kind(), key_frame_kind()};
+    std::vector<Kind> kinds{scene_kind(), camera_kind(), camera_path_kind(), key_frame_kind(), growth_kind()};
     for (const Kind& kind : light_kinds()) kinds.push_back(kind);
     for (const Kind& kind : shape_kinds()) kinds.push_back(kind);
     for (const Kind& kind : material_kinds()) kinds.push_back(kind);
@@ -56,6 +56,9 @@ const std::string every_key = R"({"$name": "t",
   {"$type": "lathe", "$material": "a", "$center": [0, 0, 0], "$profile": [[0, 0], [1, 0], [0, 1]], "$segments": 9, "$smooth": false},
   {"$type": "torus", "$material": "a", "$center": [0, 0, 0], "$axis": [0, 1, 0], "$radius": 2, "$tube": 1, "$segments": 9, "$tube_segments": 8},
   {"$type": "ripple", "$material": "d", "$center": [0, 0, 0], "$size": 2, "$amplitude": 0.1, "$wavelength": 1, "$phase_degrees": 90, "$depth": 1, "$cells": 4},
+  {"$type": "terrain", "$material": "a", "$corner": [0, 0, 0], "$size": [2, 3], "$amplitude": 0.1, "$wavelength": 1, "$seed": 1, "$cells": [4, 5],
+   "$growth": [{"$objects": ["o"], "$count": 2, "$seed": 1, "$margin": 0.1, "$sink": 0.1, "$scale": [1, 2], "$clear": [[1, 1, 0.2]]}]},
+  {"$type": "tuft", "$material": "a", "$center": [0, 0, 0], "$radius": 0.1, "$blades": 2, "$height": 0.2, "$width": 0.01, "$reach": 0.1, "$segments": 3, "$seed": 1},
   {"$type": "instances", "$object": "o", "$at": [[0, 0, 5, 90]]},
   {"$type": "mesh", "materials": {}, "$file": "t.obj"},
   {"$type": "mesh", "$material": "d", "$file": "t.obj", "$up_axis": "y", "$scale": 2, "$rotate_z_degrees": 10, "$translate": [1, 0, 0]}],
@@ -94,7 +97,7 @@ protected:
 
 TEST_F(MisspeltKeys, TheSceneWithAllKeysIsAccepted) {
     EXPECT_EQ(refusal(without_marks(every_key), folder_.path()), "");
-    EXPECT_EQ(marks_.size(), 118u);
+    EXPECT_EQ(marks_.size(), 144u);
 }
 
 TEST_F(MisspeltKeys, AnyDeletedCharacterIsRefusedAndTheValidKeyNamed) {

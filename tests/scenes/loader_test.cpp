@@ -138,7 +138,8 @@ TEST(LoaderRefuses, UnknownKeysAndNamesTheNearest) {
          "radius_to, "
          "smooth, profile, axis, tube, tube_segments, size, amplitude, wavelength, phase_degrees, depth, "
          "cells, "
-         "file, materials, up_axis, scale, translate, object, at)"},
+         "seed, growth, blades, height, width, reach, file, materials, up_axis, scale, translate, object, "
+         "at)"},
     });
 }
 
@@ -150,7 +151,7 @@ TEST(LoaderRefuses, MissingKeys) {
          "shapes[0].radius: found nothing, expected a length [m], above 0 and at most 1e6"},
         {{.shapes = R"({"material": "white"})"},
          "shapes[0].type: found nothing, expected \"quad\", \"patch\", \"box\", \"sphere\", \"cylinder\", "
-         "\"lathe\", \"torus\", \"ripple\", \"mesh\" or \"instances\""},
+         "\"lathe\", \"torus\", \"ripple\", \"terrain\", \"tuft\", \"mesh\" or \"instances\""},
         {{.materials = R"("white": {"diffuse": [0, 0, 0]})"},
          "materials.white.kind: found nothing, expected \"diffuse\", \"glossy\", \"mirror\" or "
          "\"dielectric\""},
@@ -174,7 +175,7 @@ TEST(LoaderRefuses, WrongTypes) {
          "shapes[0].corner[1]: found true, expected three coordinates [m], each from -1e12 to 1e12"},
         {{.shapes = R"({"type": 4})"},
          "shapes[0].type: found 4, expected \"quad\", \"patch\", \"box\", \"sphere\", \"cylinder\", "
-         "\"lathe\", \"torus\", \"ripple\", \"mesh\" or \"instances\""},
+         "\"lathe\", \"torus\", \"ripple\", \"terrain\", \"tuft\", \"mesh\" or \"instances\""},
         {{.shapes = sphere("\"1\"", "9")},
          "shapes[0].radius: found \"1\", expected a length [m], above 0 and at most 1e6"},
     });
@@ -366,10 +367,10 @@ TEST(LoaderRefuses, NamesAndPathsThatLeadNowhere) {
     };
     EXPECT_EQ(refused_by("rom"),
               "usage: scene: found \"rom\", expected \"room\" or a JSON file (embedded scenes: room, box, "
-              "furnace, house, arena, cornell, caustics, prism)");
+              "furnace, house, arena, cornell, caustics, prism, meadow, keyhole)");
     EXPECT_EQ(refused_by("no/such.json"),
               "data: no/such.json: found no file, expected a JSON scene or one of the embedded scenes room, "
-              "box, furnace, house, arena, cornell, caustics, prism");
+              "box, furnace, house, arena, cornell, caustics, prism, meadow, keyhole");
     const ScratchFolder folder;
     EXPECT_EQ(refused_by(folder.path().string()),
               "data: " + folder.path().string() + ": found a folder, expected a file");
