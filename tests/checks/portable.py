@@ -15,8 +15,8 @@ import subprocess
 import sys
 
 here = pathlib.Path(__file__).parent
-# Glossy, mirror and glass, smooth normals, caustic maps, frames of a camera path; thousands of triangles in cornell; terrain,
-# tufts and growth in meadow.
+# Glossy, mirror and glass, smooth normals, caustic maps, frames of a camera path; thousands of triangles in cornell; terrain
+# and tufts in growth.
 small = ["--width", "10", "--height", "10", "--photons", "3000", "--caustic-photons", "500", "--k", "20"]
 gather = ["--gather-rays", "10", "--shadow-rays", "4"]
 own = here.parent / "golden/portable_scene.json"
@@ -25,7 +25,7 @@ captures = {
     "frames": [own, *gather, "--frames", "2,4", "--samples", "2"],
     "direct": [own, "--mode", "direct", "--filter", "gaussian"],
     "cornell": ["cornell", *gather],
-    "meadow": ["meadow", *gather],
+    "growth": [here.parent / "golden/portable_growth.json", *gather],
 }
 orders = ["naive", "random", "tiled:tile=4", "direction-binned", "hilbert", "morton", "swizzle", "hashed", "direction-binned+hashed",
           "kd-leaf", "bvh-leaf"]
