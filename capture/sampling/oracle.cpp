@@ -35,7 +35,7 @@ private:
             double squares = 0;
             for (std::uint32_t probe = 0; probe < probes_ * probes_; ++probe) {
                 const Vec3 direction = frame().to_world(
-                    cosine_hemisphere(place(cell / table().columns(), probe % probes_, table().rows()),
+                    cosine_hemisphere(place(cell / table().columns(), probe / probes_, table().rows()),
                                       place(cell % table().columns(), probe % probes_, table().columns())));
                 const double light = brightness(guide_.seen(point.origin, direction));
                 squares += light * light;
