@@ -127,7 +127,16 @@ trace::Json parameters(const Scene& scene, const CaptureConfig& config) {
                                  {"k", config.caustic.k},
                                  {"radius", length_of(config.caustic.radius)},
                                  {"filter", filter_names[static_cast<std::size_t>(config.caustic.filter)]}});
+    if (has_guide(config))
+        all["guide"] = trace::Json::object(
+            {{"k", std::min(parse_sampling(pixels.sampling).photons_asked(), config.photon.photons)},
+             {"radius", trace::Json()}});
     return all;
+}
+
+bool has_guide(const CaptureConfig& config) {
+    return config.pixels.visualisation == Visualisation::final_gather &&
+           parse_sampling(config.pixels.sampling).photons_asked() > 0;
 }
 
 bool has_caustic_map(const Scene& scene, const CaptureConfig& config) {
@@ -196,12 +205,22 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
 
     const spatial::PhotonKd photons(global.heap);
     const LightProbe probe(scene, caster, photons, global.config);
-    const QueryPass query_pass(scene, caster, lights, config.pixels,
-                               {.rays = writers.global && config.columns.rays,
-                                .caustics = caustics,
-                                .guide = {photons, global.origin, caustics, [&](Vec3 origin, Vec3 direction) {
-                                              return probe.seen(origin, direction);
-                                          }}});
+    const QueryPass query_pass(
+        scene, caster, lights, config.pixels,
+        {.rays = writers.global && config.columns.rays,
+         .caustics = caustics,
+         .guide = {photons, global.origin, caustics,
+                   [&](Vec3 origin, Vec3 direction) { return probe.seen(origin, direction); }},
+         .guide_queries = writers.guide != nullptr});
+    Map guide({.k = parse_sampling(config.pixels.sampling).photons_asked()});
+    if (writers.guide) {
+        guide.heap = global.heap;
+        guide.whole = global.whole;
+        guide.config.k = std::min(guide.config.k, photons.size());
+        guide.tally = global.tally;
+        guide.columns = std::make_unique<TraceColumns>(scene, config.columns, needs, *writers.guide, false);
+        guide.columns->write_photons(guide.heap);
+    }
     Film film(config.pixels.width, config.pixels.height, config.pixels.samples);
     std::optional<Film> whole_film;
     if (packed) whole_film.emplace(config.pixels.width, config.pixels.height, config.pixels.samples);
@@ -219,6 +238,7 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         result.query_seconds += clock.lap();
         global.gather(scene, work.queries, config);
         if (caustics) caustic.gather(scene, work.caustic_queries, config);
+        if (guide.columns) guide.gather(scene, work.guide_queries, config);
         film.add(work, global.gathered, caustic.gathered);
         if (whole_film) whole_film->add(work, global.of_whole, caustic.of_whole);
         result.gather_seconds += clock.lap();
@@ -230,6 +250,7 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
             global.columns->write_rays(work);
         }
         if (caustic.columns) caustic.columns->write_queries(work.caustic_queries, caustic.gathered);
+        if (guide.columns) guide.columns->write_queries(work.guide_queries, guide.gathered);
         result.write_seconds += clock.lap();
         report("pixels", first + count, pixels);
     }
@@ -267,6 +288,10 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         result.info.counts["packed_relative_rmse"] = error->relative_rmse;
         result.info.counts["packed_relative_mean"] = error->relative_mean;
         result.info.counts["packed_flip"] = error->flip;
+    }
+    if (writers.guide) {
+        result.guide_info = finish(guide, "guide");
+        result.info.counts["guide_queries"] = guide.info.queries;
     }
     if (caustics) {
         result.caustic_info = finish(caustic, "caustic");

@@ -58,6 +58,7 @@ struct Captured {
     Layers layers;
     trace::TraceInfo info;
     std::optional<trace::TraceInfo> caustic_info;  ///< Where there is a caustic map.
+    std::optional<trace::TraceInfo> guide_info;    ///< Where directions are chosen by searches, and written.
     double photon_seconds = 0, tree_seconds = 0, query_seconds = 0, gather_seconds = 0, write_seconds = 0;
     Nonfinite nonfinite;                      ///< What was left out of the image and the maps.
     std::optional<RecordError> record_error;  ///< Of packed photons: against the image from whole ones.
@@ -74,10 +75,14 @@ trace::Json parameters(const Scene& scene, const CaptureConfig& config);
 /// asked for. Without it, gather rays find what lights send by way of specular surfaces.
 bool has_caustic_map(const Scene& scene, const CaptureConfig& config);
 
+/// Whether the directions of gather rays are chosen by searches of the global map.
+bool has_guide(const CaptureConfig& config);
+
 /// Where the columns go: each photon map has a trace of its own. Null: nowhere.
 struct TraceWriters {
     trace::TraceWriter* global = nullptr;
     trace::TraceWriter* caustic = nullptr;
+    trace::TraceWriter* guide = nullptr;  ///< Of the searches that choose directions; has photons of its own.
 };
 
 /// Renders, and writes columns; the caller finishes the writers with Captured::info and caustic_info when all

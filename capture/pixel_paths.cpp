@@ -63,6 +63,7 @@ void PixelPaths::run(std::uint32_t pixel) {
                 distribution_->look({{at.material, at.normal, at.to_viewer},
                                      at.position,
                                      caster_.offset(at.position, at.side)});
+                if (parts_.guide_queries) ask(work_.guide_queries, at, Layer::indirect);
                 add_direct_light(shaded_[i], i);
                 add_gather_rays(shaded_[i], i);
             }

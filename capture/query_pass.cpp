@@ -55,6 +55,7 @@ void Rays::clear() {
 void PixelWork::append(const PixelWork& other) {
     queries.append(other.queries);
     caustic_queries.append(other.caustic_queries);
+    guide_queries.append(other.guide_queries);
     for (std::size_t kind = 0; kind < rays.size(); ++kind) {
         rays[kind].append(other.rays[kind]);
         ray_counts[kind] += other.ray_counts[kind];
@@ -65,6 +66,7 @@ void PixelWork::append(const PixelWork& other) {
 void PixelWork::clear() {
     queries.clear();
     caustic_queries.clear();
+    guide_queries.clear();
     for (Rays& kind : rays) kind.clear();
     ray_counts = {};
     radiance.clear();

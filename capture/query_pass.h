@@ -74,6 +74,8 @@ struct PixelWork {
     Queries queries;  ///< Of the global map.
     Queries
         caustic_queries;  ///< Of the caustic map, one at each shaded point; empty unless they are asked for.
+    Queries guide_queries;  ///< Of the global map, where a strategy asks it, one at each shaded point; empty
+                            ///< unless they are kept.
     std::array<Rays, 4> rays;  ///< By RayKind; empty unless they are kept.
     std::array<std::uint64_t, 4> ray_counts{};
     std::vector<LayeredRadiance>
@@ -89,6 +91,7 @@ struct PassParts {
     bool caustics = false;  ///< There is a caustic map: ask it, and let gather rays not look for lights by
                             ///< way of specular surfaces.
     PhotonGuide guide{};    ///< What strategies of sampling ask that want photons.
+    bool guide_queries = false;  ///< Keep what they ask.
 };
 
 class QueryPass {

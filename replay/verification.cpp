@@ -49,7 +49,8 @@ struct MapParameters {
     std::string path;
 };
 MapParameters map_parameters(const trace::TraceInfo& info) {
-    if (info.map == "caustic") return {info.parameters.find("caustic"), "parameters.caustic"};
+    if (info.map != trace::map_names[0])
+        return {info.parameters.find(info.map), fmt::format("parameters.{}", info.map)};
     return {&info.parameters, "parameters"};
 }
 
@@ -322,7 +323,7 @@ std::optional<float> search_radius(const trace::TraceReader& trace) {
                      "the radius of the searches above 0, or null: unlimited");
     };
     if (!radius) {
-        if (is_captured(info) || info.map == "caustic") refuse("nothing");
+        if (is_captured(info) || info.map != trace::map_names[0]) refuse("nothing");
         return std::nullopt;
     }
     if (radius->is_null()) return std::numeric_limits<float>::infinity();

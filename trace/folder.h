@@ -33,8 +33,9 @@ struct ColumnEntry {
 std::span<const ColumnEntry> column_table();
 const ColumnEntry& column_entry(std::string_view name);  ///< UsageError for an unknown name.
 
-/// The photon maps of a capture.
-inline constexpr std::array<std::string_view, 2> map_names{"global", "caustic"};
+/// What is searched: the photon maps of a capture; "guide" is the global map, asked where gather rays should
+/// go.
+inline constexpr std::array<std::string_view, 3> map_names{"global", "caustic", "guide"};
 
 /// The rays of a capture: columns ray_KIND_*.
 inline constexpr std::array<std::string_view, 4> ray_kinds{"eye", "specular", "shadow", "gather"};

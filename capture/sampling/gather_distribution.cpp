@@ -99,12 +99,12 @@ std::span<const SamplingStrategy> table() {
         {"brdf", "as the surface scatters: diffuse by the cosine, glossy by the two lobes of its material",
          scattering_parameters, make<Scattering>},
         {"incident", "by where the photons about the point came from, at least the floor of the cosine",
-         incident_parameters(), make_incident, true},
-        {"combined", "by the same table times the BRDF", incident_parameters(), make_combined, true},
+         incident_parameters(), make_incident},
+        {"combined", "by the same table times the BRDF", incident_parameters(), make_combined},
         {"mis", "by the BRDF or by that table, each weighted (Veach & Guibas 1995)", mixture_parameters(),
-         make_mixture, true},
+         make_mixture},
         {"oracle", "by a table of the light that gather rays would find: a ceiling, at any cost",
-         oracle_parameters(), make_oracle, true},
+         oracle_parameters(), make_oracle},
     };
     return all;
 }
@@ -117,6 +117,10 @@ std::unique_ptr<GatherDistribution> make_scattering() {
 
 std::span<const SamplingStrategy> sampling_strategies() {
     return table();
+}
+
+std::uint32_t SamplingSpec::photons_asked() const {
+    return parameters.knows("k") ? parameters.count("k") : 0;
 }
 
 StrataShape SamplingSpec::strata() const {

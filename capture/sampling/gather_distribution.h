@@ -48,7 +48,6 @@ struct SamplingStrategy {
     std::span<const trace::Parameter> parameters;
     /// The guide outlives the distribution.
     std::unique_ptr<GatherDistribution> (*make)(const trace::Parameters& given, const PhotonGuide& guide);
-    bool asks_photons = false;
 };
 
 /// The strategy default_sampling.
@@ -72,6 +71,8 @@ struct SamplingSpec {
     /// Of the gather rays of a point. All strategies have even ones but the default, whose pictures stay the
     /// bytes that they were, unless it is asked.
     StrataShape strata() const;
+    /// Photons that it asks for at each shaded point; 0: none.
+    std::uint32_t photons_asked() const;
 };
 /// Throws trace::UsageError for an unknown strategy, names the nearest and lists all, and for its parameters.
 SamplingSpec parse_sampling(std::string_view spec);

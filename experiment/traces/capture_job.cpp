@@ -56,8 +56,9 @@ struct Files {
         : exr(folder / "image.exr"),
           png(folder / "image.png"),
           trace(folder / "trace"),
-          caustic_trace(folder / "caustic-trace") {}
-    fs::path exr, png, trace, caustic_trace;
+          caustic_trace(folder / "caustic-trace"),
+          guide_trace(folder / "guide-trace") {}
+    fs::path exr, png, trace, caustic_trace, guide_trace;
 };
 
 /// What is said of a finished capture of the same; nothing when there is none.
@@ -78,6 +79,7 @@ std::optional<std::string> kept(const fs::path& folder, const Files& files, cons
         fmt::format("kept the finished capture in {}\n{}", folder.string(), figures(trace.info()));
     if (capture::has_caustic_map(scene, config))
         report += figures(trace::TraceReader(files.caustic_trace).info());
+    if (capture::has_guide(config)) report += figures(trace::TraceReader(files.guide_trace).info());
     report += record_figures(trace.info());
     return report;
 }
@@ -91,19 +93,25 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
         if (const auto report = kept(folder, files, scene, config)) return *report;
     fs::create_directories(folder);
     trace::TraceWriter writer(files.trace, force);
-    std::optional<trace::TraceWriter> caustic_writer;
-    if (has_caustics) {
-        caustic_writer.emplace(files.caustic_trace, true);  // without the other it is no finished capture
-    } else {
-        fs::remove_all(files.caustic_trace);
-    }
+    // Without the other it is no finished capture.
+    const auto further_trace = [](std::optional<trace::TraceWriter>& further, bool wanted,
+                                  const fs::path& to) {
+        if (wanted)
+            further.emplace(to, true);
+        else
+            fs::remove_all(to);
+        return wanted ? &*further : nullptr;
+    };
+    std::optional<trace::TraceWriter> caustic_writer, guide_writer;
+    const capture::TraceWriters writers{
+        &writer, further_trace(caustic_writer, has_caustics, files.caustic_trace),
+        further_trace(guide_writer, capture::has_guide(config), files.guide_trace)};
     const std::string shown = trace::shown(scene.name);
     const std::string name = config.frame ? fmt::format("{}, frame {}", shown, *config.frame) : shown;
     config.progress = [&](std::string_view stage, std::uint64_t done, std::uint64_t total) {
         if (progress) progress(fmt::format("capturing {}: {}", name, stage), stage, done, total);
     };
-    const capture::Captured captured =
-        capture::capture(scene, config, {&writer, caustic_writer ? &*caustic_writer : nullptr});
+    const capture::Captured captured = capture::capture(scene, config, writers);
     std::vector<capture::Channel> channels = capture::channels_of(captured.image, "");
     for (capture::Channel& channel : captured.layers.channels()) channels.push_back(std::move(channel));
     capture::write_exr(files.exr, captured.image.width, captured.image.height, channels);
@@ -111,12 +119,14 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
                                                 : capture::middle_exposure(captured.image);
     capture::write_png(files.png, captured.image, exposure, options.tone_curve());
     if (caustic_writer) caustic_writer->finish(*captured.caustic_info);
+    if (guide_writer) guide_writer->finish(*captured.guide_info);
     writer.finish(captured.info);
 
     std::string report =
         fmt::format("captured {} ({} triangles{})\n{}", trace::shown(scene.name), scene.triangles.size(),
                     config.frame ? fmt::format(", frame {}", *config.frame) : "", figures(captured.info));
     if (captured.caustic_info) report += figures(*captured.caustic_info);
+    if (captured.guide_info) report += figures(*captured.guide_info);
     report += record_figures(captured.info);
     report += fmt::format(
         "  seconds: photons {:.1f}, trees {:.1f}, queries {:.1f}, gathers {:.1f}, writing {:.1f}\n",
@@ -125,9 +135,10 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
     for (const trace::LeftOut& part : captured.info.left_out)
         report += fmt::format("  left out {}: {}\n", trace::shown(part.what), trace::shown(part.why, 200));
     if (captured.nonfinite.total() > 0) report += fmt::format("  {}\n", captured.nonfinite.text());
-    report += fmt::format("  image: {} and {}\n  trace: {}{}\n", files.exr.string(), files.png.string(),
+    report += fmt::format("  image: {} and {}\n  trace: {}{}{}\n", files.exr.string(), files.png.string(),
                           files.trace.string(),
-                          caustic_writer ? fmt::format(" and {}", files.caustic_trace.string()) : "");
+                          caustic_writer ? fmt::format(" and {}", files.caustic_trace.string()) : "",
+                          guide_writer ? fmt::format(" and {}", files.guide_trace.string()) : "");
     return report;
 }
 

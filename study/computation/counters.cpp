@@ -169,6 +169,10 @@ CaptureTraces open_traces(std::span<const fs::path> folders) {
             out.rays.push_back(std::move(trace));
             continue;
         }
+        if (trace->info().map == "guide")
+            throw trace::UsageError(fmt::format("{}: found {}, expected those that a pixel gathers",
+                                                trace->folder().string(),
+                                                experiment::part_name(trace->info())));
         auto& place = trace->info().map == trace::map_names[0] ? out.photons : out.caustic_photons;
         if (place) refuse_second(*trace, *place);
         place = std::move(trace);

@@ -112,6 +112,37 @@ TEST(Frames, EachHasItsFolderAndTheRowsSayWhich) {
     EXPECT_FALSE(fs::exists(folder + "2"));
 }
 
+// box has no specular surface, so each of 12 x 8 pixels is shaded in one point.
+TEST(GuideTrace, HasTheSearchesThatChooseDirections) {
+    const Scratch scratch;
+    const std::string folder = (scratch / "out").string();
+    const Words small{"capture", "box",           "-o", folder,      "--width", "12", "--height",
+                      "8",       "--gather-rays", "5",  "--photons", "3000"};
+    EXPECT_THAT(expect_done(small + Words{"--sampling", "combined:k=70"}).out,
+                HasSubstr("guide map: 3000 photons"));
+    const trace::TraceReader guide(folder + "/guide-trace"), trace(folder + "/trace");
+    EXPECT_EQ(guide.info().map, "guide");
+    EXPECT_EQ(guide.info().k, 70u);
+    const auto shaded = guide.info().queries;
+    EXPECT_GT(shaded, 80u);
+    EXPECT_LE(shaded, 96u);
+    EXPECT_EQ(guide.info().found_photons, 70 * shaded);
+    EXPECT_EQ(*trace.info().counts.find("guide_queries"), trace::Json(shaded));
+    expect_done({"info", folder + "/guide-trace", "--verify"});
+    const auto rows =
+        results::from_csv(expect_done({"replay", folder + "/guide-trace", "--order", "naive"}).out, "stdout");
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].structure, "left-balanced-kd guide");
+    EXPECT_EQ(rows[0].queries, shaded);
+    // Its photons are those that gathers search, in the same memory.
+    expect_done({"frame", folder + "/guide-trace", folder + "/trace", "--order", "naive", "--unit", "pixel"});
+    expect_refused(bad_usage, {"computation", folder + "/trace", folder + "/guide-trace"}, {"guide photons"});
+
+    // A strategy that asks none leaves none behind.
+    expect_done(small + Words{"--sampling", "cosine", "--force"});
+    EXPECT_FALSE(fs::exists(folder + "/guide-trace"));
+}
+
 TEST(CausticMap, HasATraceOfItsOwnThatIsReplayedAsAnyOther) {
     const Scratch scratch;
     const std::string folder = (scratch / "out").string();
