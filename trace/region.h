@@ -15,11 +15,13 @@ enum class Region : std::uint8_t {
     photon_power,
     directory,
     triangles,
-    stack
+    stack,
+    irradiance
 };
 
-inline constexpr std::array<std::string_view, 8> region_names{
-    "photons", "reorder_buffer", "other", "nodes", "photon_power", "directory", "triangles", "stack"};
+inline constexpr std::array<std::string_view, 9> region_names{"photons",   "reorder_buffer", "other",
+                                                              "nodes",     "photon_power",   "directory",
+                                                              "triangles", "stack",          "irradiance"};
 inline constexpr std::size_t region_count = region_names.size();
 
 }  // namespace regather::trace

@@ -22,8 +22,7 @@ constexpr trace::Parameter gradients_parameter{
     "gradients", "1", "1: records are extrapolated by their gradients; 0: they are constant"};
 constexpr trace::Parameter distance_parameter{"distance", "harmonic",
                                               "R: the harmonic mean of the distances met, or the minimum"};
-constexpr const char* neighbours_help =
-    "1: R is at most a neighbour's and the distance to it";
+constexpr const char* neighbours_help = "1: R is at most a neighbour's and the distance to it";
 
 constexpr trace::Parameter split_sphere_parameters[] = {
     tolerance_parameter, distance_parameter, gradients_parameter, {"neighbours", "0", neighbours_help}};
