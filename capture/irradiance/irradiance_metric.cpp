@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -14,7 +15,7 @@
 namespace regather::capture {
 namespace {
 
-constexpr std::uint32_t most_spacings = 1'000'000;
+constexpr std::uint32_t most_spacings = 1'000'000, most_overture = 1024;
 
 constexpr trace::Parameter tolerance_parameter{
     "tolerance", "20", "[%] Ward's a: a record is used where d / R + sqrt(1 - n.n') is less"};
@@ -22,15 +23,22 @@ constexpr trace::Parameter gradients_parameter{
     "gradients", "1", "1: records are extrapolated by their gradients; 0: they are constant"};
 constexpr trace::Parameter distance_parameter{"distance", "harmonic",
                                               "R: the harmonic mean of the distances met, or the minimum"};
+constexpr trace::Parameter overture_parameter{"overture", "32",
+                                              "pixels between the first points that get records; a power of "
+                                              "two, halved round by round; 1: no overture"};
 constexpr const char* neighbours_help = "1: R is at most a neighbour's and the distance to it";
 
-constexpr trace::Parameter split_sphere_parameters[] = {
-    tolerance_parameter, distance_parameter, gradients_parameter, {"neighbours", "0", neighbours_help}};
+constexpr trace::Parameter split_sphere_parameters[] = {tolerance_parameter,
+                                                        distance_parameter,
+                                                        gradients_parameter,
+                                                        {"neighbours", "0", neighbours_help},
+                                                        overture_parameter};
 constexpr trace::Parameter bounded_parameters[] = {
     tolerance_parameter,
     distance_parameter,
     gradients_parameter,
     {"neighbours", "1", neighbours_help},
+    overture_parameter,
     {"least", "3", "spacings of pixels that a record reaches at least"},
     {"most", "20", "spacings of pixels that a record reaches at most"},
 };
@@ -38,6 +46,7 @@ constexpr trace::Parameter hessian_parameters[] = {
     tolerance_parameter,
     gradients_parameter,
     {"neighbours", "0", neighbours_help},
+    overture_parameter,
     {"error", "20",
      "[millionths of the scene's extent squared] what the relative error over a record's disc adds up to"},
     {"least", "3", "spacings of pixels that a record reaches at least"},
@@ -131,6 +140,10 @@ IrradianceCacheSpec parse_irradiance_cache(std::string_view spec) {
     require("tolerance", 1, 100);
     require("gradients", 0, 1);
     require("neighbours", 0, 1);
+    require("overture", 1, most_overture);
+    if (!std::has_single_bit(given.count("overture")))
+        throw trace::UsageError(
+            fmt::format("{}: overture is {}, expected a power of two", metric.name, given.count("overture")));
     if (given.knows("distance")) given.choice("distance", {"harmonic", "minimum"});
     if (given.knows("error")) require("error", 1, 1'000'000);
     if (given.knows("least")) {

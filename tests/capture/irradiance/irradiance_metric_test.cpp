@@ -228,9 +228,10 @@ TEST(IrradianceCacheSpec, NamesWhatItDoesNotKnow) {
     refuses("bounded:least=30", "least is 30, expected 0 to 20");
     refuses("split-sphere:tolerance=0", "tolerance is 0, expected 1 to 100");
     refuses("split-sphere:distance=mean", "distance is \"mean\"");
+    refuses("hessian:overture=12", "overture is 12, expected a power of two");
     refuses("hessian:distance=minimum", "unknown parameter \"distance\"");
     EXPECT_EQ(parse_irradiance_cache("bounded:most=9").text,
-              "bounded:tolerance=20,distance=harmonic,gradients=1,neighbours=1,least=3,most=9");
+              "bounded:tolerance=20,distance=harmonic,gradients=1,neighbours=1,overture=32,least=3,most=9");
     for (const IrradianceMetric& metric : irradiance_metrics())
         EXPECT_EQ(parse_irradiance_cache(parse_irradiance_cache(metric.name).text).text,
                   parse_irradiance_cache(metric.name).text);
