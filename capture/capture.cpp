@@ -8,6 +8,7 @@
 #include <memory>
 #include <numeric>
 
+#include "capture/irradiance/irradiance_pass.h"
 #include "capture/light_probe.h"
 #include "scenes/needs.h"
 #include "spatial/photons/photon_kd.h"
@@ -86,8 +87,16 @@ void check(const CaptureConfig& config) {
     if (pixels.samples == 0)
         throw trace::UsageError("samples: found 0, expected at least one eye ray a pixel");
     // A dielectric splits an eye ray once, and each shaded point has one gather ray at least.
-    const std::uint64_t most =
-        std::max<std::uint64_t>(pixels.gather_rays, 1) + 2 * std::uint64_t{pixels.samples};
+    std::uint64_t most = std::max<std::uint64_t>(pixels.gather_rays, 1) + 2 * std::uint64_t{pixels.samples};
+    if (has_irradiance_cache(config)) {
+        if (config.record == PhotonRecord::packed)
+            throw trace::UsageError(
+                "irradiance cache: found packed photons, expected whole ones: what packing does to the image "
+                "is told from two gathers of each pixel");
+        // At worst each point has a record.
+        const std::uint32_t rays = parse_irradiance_cache(pixels.irradiance_cache).rays();
+        most += 2 * std::uint64_t{pixels.samples} * std::max<std::uint64_t>(rays, pixels.gather_rays);
+    }
     if (count * most >= (std::uint64_t{1} << 32))
         throw trace::UsageError(
             fmt::format("gather rays: found {} pixels x {}, expected fewer than 2^32 queries", count,
@@ -121,6 +130,8 @@ trace::Json parameters(const Scene& scene, const CaptureConfig& config) {
     if (config.record == PhotonRecord::packed) all["photon_record"] = 16;
     if (const std::string sampling = parse_sampling(pixels.sampling).text; sampling != default_sampling)
         all["sampling"] = sampling;
+    if (has_irradiance_cache(config))
+        all["irradiance_cache"] = parse_irradiance_cache(pixels.irradiance_cache).text;
     if (has_caustic_map(scene, config))
         all["caustic"] =
             trace::Json::object({{"photons", config.caustic.photons},
@@ -137,6 +148,11 @@ trace::Json parameters(const Scene& scene, const CaptureConfig& config) {
 bool has_guide(const CaptureConfig& config) {
     return config.pixels.visualisation == Visualisation::final_gather &&
            parse_sampling(config.pixels.sampling).photons_asked() > 0;
+}
+
+bool has_irradiance_cache(const CaptureConfig& config) {
+    return !config.pixels.irradiance_cache.empty() && config.pixels.gather_rays > 0 &&
+           config.pixels.visualisation == Visualisation::final_gather;
 }
 
 bool has_caustic_map(const Scene& scene, const CaptureConfig& config) {
@@ -205,13 +221,44 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
 
     const spatial::PhotonKd photons(global.heap);
     const LightProbe probe(scene, caster, photons, global.config);
-    const QueryPass query_pass(
-        scene, caster, lights, config.pixels,
-        {.rays = writers.global && config.columns.rays,
-         .caustics = caustics,
-         .guide = {photons, global.origin, caustics,
-                   [&](Vec3 origin, Vec3 direction) { return probe.seen(origin, direction); }},
-         .guide_queries = writers.guide != nullptr});
+    PassParts parts{.rays = writers.global && config.columns.rays,
+                    .caustics = caustics,
+                    .guide = {photons, global.origin, caustics,
+                              [&](Vec3 origin, Vec3 direction) { return probe.seen(origin, direction); }},
+                    .guide_queries = writers.guide != nullptr};
+    std::array<std::uint64_t, ray_kind_names.size()> ray_counts{};
+    PixelWork work;
+    // What a batch asked for, in the counts and the global map's trace.
+    const auto keep = [&] {
+        for (std::size_t kind = 0; kind < ray_counts.size(); ++kind)
+            ray_counts[kind] += work.ray_counts[kind];
+        result.nonfinite += work.nonfinite;
+        if (!global.columns) return;
+        global.columns->write_queries(work.queries, global.gathered);
+        global.columns->write_rays(work);
+    };
+    std::optional<IrradiancePass> irradiance;
+    if (has_irradiance_cache(config)) {
+        clock.lap();
+        IrradianceTally& tally = result.irradiance.emplace();
+        irradiance.emplace(scene, caster, lights, config.pixels, parts);
+        while (irradiance->next(work)) {
+            result.query_seconds += clock.lap();
+            global.gather(scene, work.queries, config);
+            irradiance->add(global.gathered.radiance, work.nonfinite);
+            result.gather_seconds += clock.lap();
+            tally.rays += work.ray_counts[static_cast<std::size_t>(RayKind::gather)];
+            tally.queries += work.queries.size();
+            keep();
+            result.write_seconds += clock.lap();
+            report("irradiance records", irradiance->octree().size(), irradiance->octree().size());
+        }
+        result.query_seconds += clock.lap();
+        tally.records = irradiance->octree().size();
+        tally.octree_bytes = irradiance->octree().bytes();
+        parts.irradiance = &irradiance->octree();
+    }
+    const QueryPass query_pass(scene, caster, lights, config.pixels, parts);
     Map guide({.k = parse_sampling(config.pixels.sampling).photons_asked()});
     if (writers.guide) {
         guide.heap = global.heap;
@@ -224,13 +271,11 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
     Film film(config.pixels.width, config.pixels.height, config.pixels.samples);
     std::optional<Film> whole_film;
     if (packed) whole_film.emplace(config.pixels.width, config.pixels.height, config.pixels.samples);
-    std::array<std::uint64_t, ray_kind_names.size()> ray_counts{};
     const std::uint64_t pixel_rays = config.pixels.gather_rays + 2 * std::uint64_t{config.pixels.samples} *
                                                                      config.pixels.shadow_rays *
                                                                      std::min<std::size_t>(lights.size(), 4);
     const std::uint64_t batch =
         std::max<std::uint64_t>(1, batch_rays / std::max<std::uint64_t>(pixel_rays, 1));
-    PixelWork work;
     for (std::uint64_t first = 0; first < pixels; first += batch) {
         clock.lap();
         const std::uint64_t count = std::min(batch, pixels - first);
@@ -242,13 +287,8 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         film.add(work, global.gathered, caustic.gathered);
         if (whole_film) whole_film->add(work, global.of_whole, caustic.of_whole);
         result.gather_seconds += clock.lap();
-        for (std::size_t kind = 0; kind < ray_counts.size(); ++kind)
-            ray_counts[kind] += work.ray_counts[kind];
-        result.nonfinite += work.nonfinite;
-        if (global.columns) {
-            global.columns->write_queries(work.queries, global.gathered);
-            global.columns->write_rays(work);
-        }
+        if (result.irradiance) result.irradiance->use += work.irradiance;
+        keep();
         if (caustic.columns) caustic.columns->write_queries(work.caustic_queries, caustic.gathered);
         if (guide.columns) guide.columns->write_queries(work.guide_queries, guide.gathered);
         result.write_seconds += clock.lap();
@@ -283,6 +323,16 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         return info;
     };
     result.info = finish(global, "global");
+    if (const std::optional<IrradianceTally>& tally = result.irradiance) {
+        trace::Json& counts = result.info.counts;
+        counts["irradiance_records"] = tally->records;
+        counts["irradiance_octree_bytes"] = tally->octree_bytes;
+        counts["irradiance_rays"] = tally->rays;
+        counts["irradiance_queries"] = tally->queries;
+        counts["irradiance_points_served"] = tally->use.served;
+        counts["irradiance_points_not_served"] = tally->use.not_served;
+        counts["irradiance_rays_saved"] = tally->use.rays_saved;
+    }
     if (const std::optional<RecordError>& error = result.record_error) {
         result.info.counts["packed_farthest"] = error->farthest;
         result.info.counts["packed_relative_rmse"] = error->relative_rmse;

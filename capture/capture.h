@@ -53,6 +53,13 @@ struct CaptureConfig {
     std::function<void(std::string_view stage, std::uint64_t done, std::uint64_t total)> progress;
 };
 
+/// What an irradiance cache did.
+struct IrradianceTally {
+    std::uint64_t records = 0, octree_bytes = 0;
+    std::uint64_t rays = 0, queries = 0;  ///< Gather rays and searches that records were made of.
+    IrradianceUse use;
+};
+
 struct Captured {
     Image image;
     Layers layers;
@@ -60,8 +67,9 @@ struct Captured {
     std::optional<trace::TraceInfo> caustic_info;  ///< Where there is a caustic map.
     std::optional<trace::TraceInfo> guide_info;    ///< Where directions are chosen by searches, and written.
     double photon_seconds = 0, tree_seconds = 0, query_seconds = 0, gather_seconds = 0, write_seconds = 0;
-    Nonfinite nonfinite;                      ///< What was left out of the image and the maps.
-    std::optional<RecordError> record_error;  ///< Of packed photons: against the image from whole ones.
+    Nonfinite nonfinite;                        ///< What was left out of the image and the maps.
+    std::optional<IrradianceTally> irradiance;  ///< Where there is an irradiance cache.
+    std::optional<RecordError> record_error;    ///< Of packed photons: against the image from whole ones.
 };
 
 /// XXH3-64 over everything in the scene that light can see, in hexadecimal.
@@ -84,6 +92,10 @@ struct TraceWriters {
     trace::TraceWriter* caustic = nullptr;
     trace::TraceWriter* guide = nullptr;  ///< Of the searches that choose directions; has photons of its own.
 };
+
+/// Whether diffuse points have their gathered light from records of irradiance: that is asked for, and there
+/// are gather rays.
+bool has_irradiance_cache(const CaptureConfig& config);
 
 /// Renders, and writes columns; the caller finishes the writers with Captured::info and caustic_info when all
 /// else that belongs to the capture is written. UsageError for a picture without pixels or of 2^32 queries or

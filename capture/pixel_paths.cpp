@@ -35,26 +35,42 @@ PixelPaths::PixelPaths(const Scene& scene, const RayCaster& caster, const LightS
       gather_strata_(parse_sampling(config.sampling).strata()),
       distribution_(parse_sampling(config.sampling).make(parts_.guide)) {}
 
-void PixelPaths::run(std::uint32_t pixel) {
+/// Eye ray sample_ of pixel_: what it sees, and the points to shade with their gather rays.
+void PixelPaths::follow_eye_ray(const Strata& strata) {
+    const auto column = static_cast<float>(pixel_ % config_.width),
+               row = static_cast<float>(pixel_ / config_.width);
+    radiance_ = {};
+    shaded_points_ = 0;
+    Sampler sampler(config_.seed, Stream::eye, pixel_, sample_);
+    float x = 0.5f, y = 0.5f;
+    if (config_.samples > 1 || config_.jitter) {
+        const Strata::Point place = strata.sample(sample_, sampler);
+        x = place.along_columns;
+        y = place.along_rows;
+    }
+    follow_eye(scene_.camera.position, plane_.direction(column + x, row + y), {1, 1, 1}, 0, true, sampler);
+    if (config_.visualisation == Visualisation::final_gather && config_.gather_rays > 0)
+        share_gather_rays(std::max(1u, config_.gather_rays / config_.samples +
+                                           (sample_ < config_.gather_rays % config_.samples ? 1 : 0)));
+}
+
+void PixelPaths::look(std::uint32_t pixel, std::vector<DiffusePoint>& found) {
     pixel_ = pixel;
-    const auto column = static_cast<float>(pixel % config_.width),
-               row = static_cast<float>(pixel / config_.width);
     const Strata strata(config_.samples);
     for (sample_ = 0; sample_ < config_.samples; ++sample_) {
-        radiance_ = {};
-        shaded_points_ = 0;
-        Sampler sampler(config_.seed, Stream::eye, pixel_, sample_);
-        float x = 0.5f, y = 0.5f;
-        if (config_.samples > 1 || config_.jitter) {
-            const Strata::Point place = strata.sample(sample_, sampler);
-            x = place.along_columns;
-            y = place.along_rows;
-        }
-        follow_eye(scene_.camera.position, plane_.direction(column + x, row + y), {1, 1, 1}, 0, true,
-                   sampler);
-        if (config_.visualisation == Visualisation::final_gather && config_.gather_rays > 0)
-            share_gather_rays(std::max(1u, config_.gather_rays / config_.samples +
-                                               (sample_ < config_.gather_rays % config_.samples ? 1 : 0)));
+        follow_eye_ray(strata);
+        for (std::uint32_t i = 0; i < shaded_points_; ++i)
+            if (const Material& material = *shaded_[i].material;
+                material.kind == MaterialKind::diffuse && !is_black(material) && shaded_[i].gather_rays > 0)
+                found.push_back({shaded_[i], pixel_, sample_, i});
+    }
+}
+
+void PixelPaths::run(std::uint32_t pixel) {
+    pixel_ = pixel;
+    const Strata strata(config_.samples);
+    for (sample_ = 0; sample_ < config_.samples; ++sample_) {
+        follow_eye_ray(strata);
         for (std::size_t i = 0; i < shaded_points_; ++i) {
             if (config_.visualisation == Visualisation::direct) {
                 ask(work_.queries, shaded_[i], Layer::indirect);
@@ -254,9 +270,49 @@ void PixelPaths::share_gather_rays(std::uint32_t rays) {
     }
 }
 
+/// Whether records of irradiance say what a diffuse point's gather rays would bring.
+bool PixelPaths::add_recorded_light(const Shaded& at) {
+    if (!parts_.irradiance || at.material->kind != MaterialKind::diffuse) return false;
+    const std::optional<Vec3> irradiance =
+        parts_.irradiance->irradiance({at.position, at.normal}, parts_.irradiance->tolerance());
+    if (!irradiance) {
+        ++work_.irradiance.not_served;
+        return false;
+    }
+    ++work_.irradiance.served;
+    work_.irradiance.rays_saved += at.gather_rays;
+    add(Stage::gather, at.specular ? Layer::specular : Layer::indirect,
+        at.throughput * at.material->diffuse * *irradiance * std::numbers::inv_pi_v<float>);
+    return true;
+}
+
+void PixelPaths::gather_hemisphere(const DiffusePoint& point, const HemisphereGrid& grid,
+                                   std::span<Incoming> incoming, std::span<std::uint32_t> query) {
+    pixel_ = point.pixel;
+    sample_ = point.sample;
+    const Shaded& at = point.at;
+    const Frame frame(at.normal);
+    for (std::uint32_t cell = 0; cell < grid.cells(); ++cell) {
+        Sampler sampler(config_.seed, Stream::irradiance, stream_index(point.number), cell);
+        const float u = sampler.uniform(), v = sampler.uniform();
+        incoming[cell] = {};
+        incoming[cell].direction = frame.to_world(grid.direction(cell, u, v));
+        query[cell] = no_query;
+        if (dot(incoming[cell].direction, at.side) <= 0) continue;
+        radiance_ = {};
+        const std::size_t queries = work_.queries.size();
+        incoming[cell].distance =
+            follow_gather(at, {incoming[cell].direction, {1, 1, 1}, 0, grid.place(cell)}, sampler);
+        Vec3d light;
+        for (const std::array<double, 3>& layer : radiance_) light += Vec3d{layer[0], layer[1], layer[2]};
+        incoming[cell].radiance = trace::to_float(light);
+        if (work_.queries.size() > queries) query[cell] = static_cast<std::uint32_t>(queries);
+    }
+}
+
 void PixelPaths::add_gather_rays(const Shaded& at, std::size_t number) {
     const std::uint32_t rays = at.gather_rays;
-    if (rays == 0 || is_black(*at.material)) return;
+    if (rays == 0 || is_black(*at.material) || add_recorded_light(at)) return;
     const Strata strata(rays, gather_strata_);
     const bool glossy = at.material->kind == MaterialKind::glossy;
     // The strata are visited in a random sequence: the paper's naive order knows no coherence inside a pixel.
@@ -288,13 +344,15 @@ void PixelPaths::add_gather_rays(const Shaded& at, std::size_t number) {
     }
 }
 
-void PixelPaths::follow_gather(const Shaded& at, const GatherRay& ray, Sampler& sampler) {
+float PixelPaths::follow_gather(const Shaded& at, const GatherRay& ray, Sampler& sampler) {
     Vec3 origin = caster_.offset(at.position, at.side), direction = ray.direction, weight = ray.weight;
     const double density = ray.density;
+    float distance = unlimited;
     for (std::uint32_t specular = 0;; ++specular) {
         count(specular == 0 ? RayKind::gather : RayKind::specular, origin, direction, unlimited);
         const std::optional<Hit> hit = caster_.closest(origin, direction);
-        if (!hit) return;
+        if (!hit) return distance;
+        if (specular == 0) distance = hit->distance;
         const Vec3 incoming = -direction;
         const Surface met = surface_at(scene_, *hit, incoming);
         const Vec3 light = emitted(*hit, met.front);
@@ -311,7 +369,7 @@ void PixelPaths::follow_gather(const Shaded& at, const GatherRay& ray, Sampler& 
             }
         }
         if (!is_specular(*met.material)) {
-            if (is_black(*met.material)) return;
+            if (is_black(*met.material)) return distance;
             Queries& queries = work_.queries;
             queries.position.push_back(hit->position);
             queries.direction.push_back(direction);
@@ -322,9 +380,9 @@ void PixelPaths::follow_gather(const Shaded& at, const GatherRay& ray, Sampler& 
             queries.normal.push_back(met.normal);
             queries.sample.push_back(sample_);
             queries.layer.push_back(at.specular ? Layer::specular : Layer::indirect);
-            return;
+            return distance;
         }
-        if (specular == config_.max_specular) return;
+        if (specular == config_.max_specular) return distance;
         const Branch next = choose_specular(*hit, met, incoming, weight, sampler);
         origin = next.origin;
         direction = next.direction;

@@ -5,10 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "capture/irradiance/hemisphere_grid.h"
 #include "capture/query_pass.h"
 #include "capture/sampling/gather_distribution.h"
+#include "capture/strata.h"
 #include "capture/surface.h"
 #include "capture/view_plane.h"
 
@@ -22,7 +25,6 @@ public:
 
     void run(std::uint32_t pixel);
 
-private:
     struct Shaded {
         Vec3 position, normal, side, to_viewer, throughput;
         const Material* material;
@@ -30,6 +32,21 @@ private:
         bool specular;  // the eye sees it by way of a specular surface
         std::uint32_t gather_rays = 0;
     };
+    /// Where an eye ray ends on a diffuse surface that is not black.
+    struct DiffusePoint {
+        Shaded at;
+        std::uint32_t pixel, sample, number;  // which of the pixel's eye rays; which of its points
+    };
+    /// Appends the pixel's, in the order in which run() shades them.
+    void look(std::uint32_t pixel, std::vector<DiffusePoint>& found);
+    /// A ray through each cell of the grid about the point's normal. `incoming`: what they bring without
+    /// photons; `query`: for each the row of the work's queries that says what photons add, whose weight is
+    /// what the ray's light is to be multiplied with; no_query where there is none.
+    static constexpr std::uint32_t no_query = ~0u;
+    void gather_hemisphere(const DiffusePoint& point, const HemisphereGrid& grid,
+                           std::span<Incoming> incoming, std::span<std::uint32_t> query);
+
+private:
     struct Branch {
         Vec3 origin, direction, throughput;
     };
@@ -52,12 +69,15 @@ private:
     void follow_eye(Vec3 origin, Vec3 direction, Vec3 throughput, std::uint32_t specular, bool may_split,
                     Sampler& sampler);
 
+    void follow_eye_ray(const Strata& strata);
+    bool add_recorded_light(const Shaded& at);
     void add_direct_light(const Shaded& at, std::size_t number);
     void add_light_of(const Shaded& at, Vec3 origin, const LightPoint& point, double density);
     void ask(Queries& queries, const Shaded& at, Layer layer);
     void share_gather_rays(std::uint32_t rays);
     void add_gather_rays(const Shaded& at, std::size_t number);
-    void follow_gather(const Shaded& at, const GatherRay& ray, Sampler& sampler);
+    /// Returns how far the ray goes before it meets anything [scene units].
+    float follow_gather(const Shaded& at, const GatherRay& ray, Sampler& sampler);
     double light_density(std::uint32_t light) const;
 
     const Scene& scene_;

@@ -62,6 +62,7 @@ void PixelWork::append(const PixelWork& other) {
     }
     append_to(radiance, other.radiance);
     nonfinite += other.nonfinite;
+    irradiance += other.irradiance;
 }
 void PixelWork::clear() {
     queries.clear();
@@ -71,6 +72,7 @@ void PixelWork::clear() {
     ray_counts = {};
     radiance.clear();
     nonfinite = {};
+    irradiance = {};
 }
 
 QueryPass::QueryPass(const Scene& scene, const RayCaster& caster, const LightSampler& lights,

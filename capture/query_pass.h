@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/irradiance/irradiance_octree.h"
 #include "capture/lights.h"
 #include "capture/nonfinite.h"
 #include "capture/ray_caster.h"
@@ -33,6 +34,7 @@ struct QueryConfig {
     bool jitter = false;  ///< ... or anywhere in the pixel.
     Visualisation visualisation = Visualisation::final_gather;
     std::string sampling{default_sampling};  ///< Of gather rays: a spec of sampling/gather_distribution.h.
+    std::string irradiance_cache;            ///< A spec of irradiance/irradiance_metric.h; empty: none.
     std::uint64_t seed = 1;
 };
 
@@ -69,6 +71,19 @@ struct Rays {
 
 using LayeredRadiance = std::array<Vec3, layer_names.size()>;  ///< [W / (m^2 sr)] by Layer.
 
+/// What diffuse points asked of records of irradiance.
+struct IrradianceUse {
+    std::uint64_t served = 0, not_served = 0;  ///< Points.
+    std::uint64_t rays_saved = 0;              ///< Gather rays that points that were served did without.
+    IrradianceUse& operator+=(const IrradianceUse& other) {
+        served += other.served;
+        not_served += other.not_served;
+        rays_saved += other.rays_saved;
+        return *this;
+    }
+    friend bool operator==(const IrradianceUse&, const IrradianceUse&) = default;
+};
+
 /// What a run of pixels asks for, and what it has gathered without photons.
 struct PixelWork {
     Queries queries;  ///< Of the global map.
@@ -81,6 +96,7 @@ struct PixelWork {
     std::vector<LayeredRadiance>
         radiance;         ///< Emission and direct light of each eye ray: pixel by pixel, sample by sample.
     Nonfinite nonfinite;  ///< Contributions and queries that were left out.
+    IrradianceUse irradiance;
     void append(const PixelWork& other);
     void clear();
 };
@@ -92,6 +108,9 @@ struct PassParts {
                             ///< way of specular surfaces.
     PhotonGuide guide{};    ///< What strategies of sampling ask that want photons.
     bool guide_queries = false;  ///< Keep what they ask.
+    /// Diffuse points that records serve, by errors below the octree's tolerance, have their gathered light
+    /// from them. Null: none.
+    const IrradianceOctree* irradiance = nullptr;
 };
 
 class QueryPass {

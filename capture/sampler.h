@@ -9,7 +9,7 @@
 namespace regather::capture {
 
 /// What the numbers are for; streams never share numbers.
-enum class Stream : std::uint32_t { photon, eye, shadow, gather, caustic_photon, reference = 64 };
+enum class Stream : std::uint32_t { photon, eye, shadow, gather, caustic_photon, irradiance, reference = 64 };
 
 /// The dimensions of one sample, one after the other.
 class Sampler {

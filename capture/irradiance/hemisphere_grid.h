@@ -40,6 +40,14 @@ public:
     /// A direction of the cell by two numbers in [0, 1), of unit length where the normal is z.
     Vec3 direction(std::uint32_t cell, float u, float v) const;
 
+    /// Where the middle of the cell lies, as Strata::place().
+    std::uint32_t place(std::uint32_t cell) const {
+        const auto middle = [](std::uint64_t i, std::uint64_t n) {
+            return static_cast<std::uint32_t>((2 * i + 1) * 32768 / n);
+        };
+        return middle(cell / columns_, rows_) << 16 | middle(cell % columns_, columns_);
+    }
+
     /// In a frame whose z axis is the normal. theta: the angle to it, phi: the angle about it.
     struct Row {
         double upper_sine;  ///< Of theta where the row begins.

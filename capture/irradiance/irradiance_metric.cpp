@@ -15,7 +15,7 @@
 namespace regather::capture {
 namespace {
 
-constexpr std::uint32_t most_spacings = 1'000'000, most_overture = 1024;
+constexpr std::uint32_t most_spacings = 1'000'000, most_overture = 1024, most_rays = 65536;
 
 constexpr trace::Parameter tolerance_parameter{
     "tolerance", "20", "[%] Ward's a: a record is used where d / R + sqrt(1 - n.n') is less"};
@@ -26,19 +26,20 @@ constexpr trace::Parameter distance_parameter{"distance", "harmonic",
 constexpr trace::Parameter overture_parameter{"overture", "32",
                                               "pixels between the first points that get records; a power of "
                                               "two, halved round by round; 1: no overture"};
+constexpr trace::Parameter rays_parameter{"rays", "0",
+                                          "a record is made of; 0: as many as a pixel gathers with"};
 constexpr const char* neighbours_help = "1: R is at most a neighbour's and the distance to it";
 
-constexpr trace::Parameter split_sphere_parameters[] = {tolerance_parameter,
-                                                        distance_parameter,
-                                                        gradients_parameter,
-                                                        {"neighbours", "0", neighbours_help},
-                                                        overture_parameter};
+constexpr trace::Parameter split_sphere_parameters[] = {
+    tolerance_parameter, distance_parameter, gradients_parameter, {"neighbours", "0", neighbours_help},
+    overture_parameter,  rays_parameter};
 constexpr trace::Parameter bounded_parameters[] = {
     tolerance_parameter,
     distance_parameter,
     gradients_parameter,
     {"neighbours", "1", neighbours_help},
     overture_parameter,
+    rays_parameter,
     {"least", "3", "spacings of pixels that a record reaches at least"},
     {"most", "20", "spacings of pixels that a record reaches at most"},
 };
@@ -47,6 +48,7 @@ constexpr trace::Parameter hessian_parameters[] = {
     gradients_parameter,
     {"neighbours", "0", neighbours_help},
     overture_parameter,
+    rays_parameter,
     {"error", "20",
      "[millionths of the scene's extent squared] what the relative error over a record's disc adds up to"},
     {"least", "3", "spacings of pixels that a record reaches at least"},
@@ -140,6 +142,7 @@ IrradianceCacheSpec parse_irradiance_cache(std::string_view spec) {
     require("tolerance", 1, 100);
     require("gradients", 0, 1);
     require("neighbours", 0, 1);
+    require("rays", 0, most_rays);
     require("overture", 1, most_overture);
     if (!std::has_single_bit(given.count("overture")))
         throw trace::UsageError(

@@ -51,6 +51,8 @@ struct IrradianceCacheSpec {
     std::string text;  ///< All parameters, defaults too; a spec again.
 
     double tolerance() const { return parameters.count("tolerance") / 100.0; }  ///< Ward's a.
+    /// Of a record; 0: not said.
+    std::uint32_t rays() const { return parameters.count("rays"); }
     /// Pixels between the points of the first round of seeding, a power of two.
     std::uint32_t overture() const { return parameters.count("overture"); }
     /// Whether a record's R is at most a neighbour's and the distance to it (Krivanek et al. 2006).

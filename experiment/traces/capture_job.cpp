@@ -50,6 +50,23 @@ std::string record_figures(const trace::TraceInfo& info) {
         figure("packed_flip"));
 }
 
+/// What an irradiance cache did; nothing where there is none.
+std::string irradiance_figures(const trace::TraceInfo& info) {
+    if (!info.counts.find("irradiance_records")) return {};
+    const auto count = [&](const char* name) {
+        return static_cast<std::uint64_t>(info.counts.find(name)->number());
+    };
+    const std::uint64_t served = count("irradiance_points_served"),
+                        points = served + count("irradiance_points_not_served");
+    return fmt::format(
+        "  irradiance cache: {} records of {} rays and {} queries in all, an octree of {} bytes; {} of {} "
+        "points served ({:.2f} %), {} gather rays saved\n",
+        count("irradiance_records"), count("irradiance_rays"), count("irradiance_queries"),
+        count("irradiance_octree_bytes"), served, points,
+        points > 0 ? 100 * static_cast<double>(served) / static_cast<double>(points) : 0.0,
+        count("irradiance_rays_saved"));
+}
+
 /// Where the parts of one captured frame lie.
 struct Files {
     explicit Files(const fs::path& folder)
@@ -81,6 +98,7 @@ std::optional<std::string> kept(const fs::path& folder, const Files& files, cons
         report += figures(trace::TraceReader(files.caustic_trace).info());
     if (capture::has_guide(config)) report += figures(trace::TraceReader(files.guide_trace).info());
     report += record_figures(trace.info());
+    report += irradiance_figures(trace.info());
     return report;
 }
 
@@ -128,6 +146,7 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
     if (captured.caustic_info) report += figures(*captured.caustic_info);
     if (captured.guide_info) report += figures(*captured.guide_info);
     report += record_figures(captured.info);
+    report += irradiance_figures(captured.info);
     report += fmt::format(
         "  seconds: photons {:.1f}, trees {:.1f}, queries {:.1f}, gathers {:.1f}, writing {:.1f}\n",
         captured.photon_seconds, captured.tree_seconds, captured.query_seconds, captured.gather_seconds,

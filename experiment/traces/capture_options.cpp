@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 
+#include "capture/irradiance/irradiance_metric.h"
 #include "reorder/catalogue.h"
 #include "trace/error.h"
 #include "trace/field.h"
@@ -44,6 +45,8 @@ capture::CaptureConfig CaptureOptions::config() const {
         .jitter = false,
         .visualisation = chosen<capture::Visualisation>(mode, capture::visualisation_names, "mode"),
         .sampling = capture::parse_sampling(sampling).text,
+        .irradiance_cache = irradiance_cache.empty() ? irradiance_cache
+                                                     : capture::parse_irradiance_cache(irradiance_cache).text,
         .seed = seed};
     config.photon = {.photons = photons, .seed = seed};
     config.gather = {.k = k,
@@ -92,6 +95,13 @@ std::span<const CaptureKey> capture_keys() {
             names.push_back(strategy.name);
         return fmt::format("how their directions are chosen: {}", fmt::join(names, ", "));
     }();
+    static const std::string irradiance_help = [] {
+        std::vector<std::string_view> names;
+        for (const capture::IrradianceMetric& metric : capture::irradiance_metrics())
+            names.push_back(metric.name);
+        return fmt::format("diffuse points gather for their neighbours, too, as far as a metric says: {}",
+                           fmt::join(names, ", "));
+    }();
     static const std::vector<CaptureKey> keys{
         {"width", &Options::width, "image width [pixels]", 1, most_pixels},
         {"height", &Options::height, "image height [pixels]", 1, most_pixels},
@@ -102,6 +112,7 @@ std::span<const CaptureKey> capture_keys() {
          .words = capture::visualisation_names},
         {"gather_rays", &Options::gather_rays, "final gather rays a pixel (N)", 0, most_rays},
         {"sampling", &Options::sampling, sampling_help},
+        {"irradiance_cache", &Options::irradiance_cache, irradiance_help},
         {"shadow_rays", &Options::shadow_rays, "shadow rays per shaded point and light, of up to four lights",
          0, most_rays},
         {"photons", &Options::photons, "photons to store", 0, most_photons},
@@ -153,7 +164,12 @@ std::span<const CaptureKey> capture_keys() {
 std::vector<IdleKeys> idle_keys(const CaptureOptions& options) {
     std::vector<IdleKeys> idle;
     if (options.mode == "direct")
-        idle.push_back({{"gather_rays", "shadow_rays", "sampling"}, "mode", "direct", "casts no such rays"});
+        idle.push_back({{"gather_rays", "shadow_rays", "sampling", "irradiance_cache"},
+                        "mode",
+                        "direct",
+                        "casts no such rays"});
+    if (options.gather_rays == 0)
+        idle.push_back({{"irradiance_cache"}, "gather_rays", "0", "gathers nothing"});
     if (options.caustic_photons == 0)
         idle.push_back(
             {{"caustic_k", "caustic_radius", "caustic_filter"}, "caustic_photons", "0", "makes no such map"});

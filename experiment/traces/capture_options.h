@@ -28,6 +28,7 @@ struct CaptureOptions {
     std::string mode = "final-gather",
                 filter = "none";                      ///< capture::visualisation_names, capture::filter_names
     std::string sampling{capture::default_sampling};  ///< Of gather rays, a spec.
+    std::string irradiance_cache;  ///< A spec of capture/irradiance/irradiance_metric.h; empty: none.
     bool surface_check = true;
     std::uint32_t caustic_photons = 100'000, caustic_k = 60;
     double caustic_radius = 0;  ///< [scene units]; 0 or infinity: unlimited

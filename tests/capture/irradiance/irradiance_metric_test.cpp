@@ -230,8 +230,9 @@ TEST(IrradianceCacheSpec, NamesWhatItDoesNotKnow) {
     refuses("split-sphere:distance=mean", "distance is \"mean\"");
     refuses("hessian:overture=12", "overture is 12, expected a power of two");
     refuses("hessian:distance=minimum", "unknown parameter \"distance\"");
-    EXPECT_EQ(parse_irradiance_cache("bounded:most=9").text,
-              "bounded:tolerance=20,distance=harmonic,gradients=1,neighbours=1,overture=32,least=3,most=9");
+    EXPECT_EQ(
+        parse_irradiance_cache("bounded:most=9").text,
+        "bounded:tolerance=20,distance=harmonic,gradients=1,neighbours=1,overture=32,rays=0,least=3,most=9");
     for (const IrradianceMetric& metric : irradiance_metrics())
         EXPECT_EQ(parse_irradiance_cache(parse_irradiance_cache(metric.name).text).text,
                   parse_irradiance_cache(metric.name).text);
