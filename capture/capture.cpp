@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "capture/irradiance/irradiance_pass.h"
+#include "capture/irradiance/octree_columns.h"
 #include "capture/light_probe.h"
 #include "scenes/needs.h"
 #include "spatial/photons/photon_kd.h"
@@ -257,7 +258,9 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         tally.records = irradiance->octree().size();
         tally.octree_bytes = irradiance->octree().bytes();
         parts.irradiance = &irradiance->octree();
+        parts.octree_searches = writers.irradiance != nullptr;
     }
+    trace::TraceInfo octree_info;
     const QueryPass query_pass(scene, caster, lights, config.pixels, parts);
     Map guide({.k = parse_sampling(config.pixels.sampling).photons_asked()});
     if (writers.guide) {
@@ -288,6 +291,7 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         if (whole_film) whole_film->add(work, global.of_whole, caustic.of_whole);
         result.gather_seconds += clock.lap();
         if (result.irradiance) result.irradiance->use += work.irradiance;
+        if (writers.irradiance) write_searches(*writers.irradiance, work.octree_searches, octree_info);
         keep();
         if (caustic.columns) caustic.columns->write_queries(work.caustic_queries, caustic.gathered);
         if (guide.columns) guide.columns->write_queries(work.guide_queries, guide.gathered);
@@ -323,6 +327,16 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         return info;
     };
     result.info = finish(global, "global");
+    if (irradiance && writers.irradiance) {
+        finish_searches(*writers.irradiance, irradiance->octree(), octree_info);
+        octree_info.scene = scene.name;
+        octree_info.frame = config.frame;
+        octree_info.image_width = config.pixels.width;
+        octree_info.image_height = config.pixels.height;
+        octree_info.seed = config.pixels.seed;
+        octree_info.parameters = parameters(scene, config);
+        result.irradiance_info = octree_info;
+    }
     if (const std::optional<IrradianceTally>& tally = result.irradiance) {
         trace::Json& counts = result.info.counts;
         counts["irradiance_records"] = tally->records;

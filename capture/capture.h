@@ -66,6 +66,7 @@ struct Captured {
     trace::TraceInfo info;
     std::optional<trace::TraceInfo> caustic_info;  ///< Where there is a caustic map.
     std::optional<trace::TraceInfo> guide_info;    ///< Where directions are chosen by searches, and written.
+    std::optional<trace::TraceInfo> irradiance_info;  ///< Where there is an irradiance cache: of its octree.
     double photon_seconds = 0, tree_seconds = 0, query_seconds = 0, gather_seconds = 0, write_seconds = 0;
     Nonfinite nonfinite;                        ///< What was left out of the image and the maps.
     std::optional<IrradianceTally> irradiance;  ///< Where there is an irradiance cache.
@@ -86,20 +87,22 @@ bool has_caustic_map(const Scene& scene, const CaptureConfig& config);
 /// Whether the directions of gather rays are chosen by searches of the global map.
 bool has_guide(const CaptureConfig& config);
 
-/// Where the columns go: each photon map has a trace of its own. Null: nowhere.
+/// Where the columns go: each photon map has a trace of its own, and so has an irradiance cache. Null:
+/// nowhere.
 struct TraceWriters {
     trace::TraceWriter* global = nullptr;
     trace::TraceWriter* caustic = nullptr;
     trace::TraceWriter* guide = nullptr;  ///< Of the searches that choose directions; has photons of its own.
+    trace::TraceWriter* irradiance = nullptr;  ///< Searches of the octree of irradiance records.
 };
 
 /// Whether diffuse points have their gathered light from records of irradiance: that is asked for, and there
 /// are gather rays.
 bool has_irradiance_cache(const CaptureConfig& config);
 
-/// Renders, and writes columns; the caller finishes the writers with Captured::info and caustic_info when all
-/// else that belongs to the capture is written. UsageError for a picture without pixels or of 2^32 queries or
-/// more.
+/// Renders, and writes columns; the caller finishes the writers with Captured::info, caustic_info and
+/// irradiance_info when all else that belongs to the capture is written. UsageError for a picture without
+/// pixels or of 2^32 queries or more.
 Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWriters& writers = {});
 
 }  // namespace regather::capture

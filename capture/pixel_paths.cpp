@@ -270,11 +270,27 @@ void PixelPaths::share_gather_rays(std::uint32_t rays) {
     }
 }
 
+std::optional<Vec3> PixelPaths::recorded_irradiance(const Shaded& at) {
+    const IrradianceOctree& octree = *parts_.irradiance;
+    const IrradiancePoint point{at.position, at.normal};
+    if (!parts_.octree_searches) return octree.irradiance(point, octree.tolerance());
+    OctreeElements<spatial::ListWalkRecorder> elements{octree_walk_, octree.nodes()};
+    const std::optional<Vec3> irradiance = octree.irradiance(point, octree.tolerance(), elements);
+    OctreeSearches& searches = work_.octree_searches;
+    searches.position.push_back(at.position);
+    searches.pixel.push_back(pixel_);
+    searches.walk_bytes.push_back(octree_walk_.finish());
+    const std::span<const std::uint8_t> walk = octree_walk_.bytes();
+    searches.walks.insert(searches.walks.end(), walk.begin(), walk.end());
+    searches.visited += octree_walk_.visited_nodes();
+    octree_walk_.clear();
+    return irradiance;
+}
+
 /// Whether records of irradiance say what a diffuse point's gather rays would bring.
 bool PixelPaths::add_recorded_light(const Shaded& at) {
     if (!parts_.irradiance || at.material->kind != MaterialKind::diffuse) return false;
-    const std::optional<Vec3> irradiance =
-        parts_.irradiance->irradiance({at.position, at.normal}, parts_.irradiance->tolerance());
+    const std::optional<Vec3> irradiance = recorded_irradiance(at);
     if (!irradiance) {
         ++work_.irradiance.not_served;
         return false;

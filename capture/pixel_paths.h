@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "capture/strata.h"
 #include "capture/surface.h"
 #include "capture/view_plane.h"
+#include "spatial/list_walk.h"
 
 namespace regather::capture {
 
@@ -71,6 +73,7 @@ private:
 
     void follow_eye_ray(const Strata& strata);
     bool add_recorded_light(const Shaded& at);
+    std::optional<Vec3> recorded_irradiance(const Shaded& at);
     void add_direct_light(const Shaded& at, std::size_t number);
     void add_light_of(const Shaded& at, Vec3 origin, const LightPoint& point, double density);
     void ask(Queries& queries, const Shaded& at, Layer layer);
@@ -96,6 +99,7 @@ private:
     const StrataShape gather_strata_;
     const std::unique_ptr<GatherDistribution> distribution_;  // looks at the point that is shaded
     View view_;
+    spatial::ListWalkRecorder octree_walk_;
 };
 
 }  // namespace regather::capture

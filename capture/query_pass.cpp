@@ -52,6 +52,13 @@ void Rays::clear() {
     extent.clear();
     pixel.clear();
 }
+void OctreeSearches::append(const OctreeSearches& other) {
+    append_to(position, other.position);
+    append_to(pixel, other.pixel);
+    append_to(walk_bytes, other.walk_bytes);
+    append_to(walks, other.walks);
+    visited += other.visited;
+}
 void PixelWork::append(const PixelWork& other) {
     queries.append(other.queries);
     caustic_queries.append(other.caustic_queries);
@@ -63,6 +70,7 @@ void PixelWork::append(const PixelWork& other) {
     append_to(radiance, other.radiance);
     nonfinite += other.nonfinite;
     irradiance += other.irradiance;
+    octree_searches.append(other.octree_searches);
 }
 void PixelWork::clear() {
     queries.clear();
@@ -73,6 +81,7 @@ void PixelWork::clear() {
     radiance.clear();
     nonfinite = {};
     irradiance = {};
+    octree_searches = {};
 }
 
 QueryPass::QueryPass(const Scene& scene, const RayCaster& caster, const LightSampler& lights,

@@ -84,6 +84,16 @@ struct IrradianceUse {
     friend bool operator==(const IrradianceUse&, const IrradianceUse&) = default;
 };
 
+/// Searches of an octree of irradiance records, and the list walks that they took, in capture order.
+struct OctreeSearches {
+    std::vector<Vec3> position;
+    std::vector<std::uint32_t> pixel, walk_bytes;
+    std::vector<std::uint8_t> walks;
+    std::uint64_t visited = 0;  ///< Elements.
+    std::size_t size() const { return position.size(); }
+    void append(const OctreeSearches& other);
+};
+
 /// What a run of pixels asks for, and what it has gathered without photons.
 struct PixelWork {
     Queries queries;  ///< Of the global map.
@@ -97,6 +107,7 @@ struct PixelWork {
         radiance;         ///< Emission and direct light of each eye ray: pixel by pixel, sample by sample.
     Nonfinite nonfinite;  ///< Contributions and queries that were left out.
     IrradianceUse irradiance;
+    OctreeSearches octree_searches;  ///< Empty unless they are kept.
     void append(const PixelWork& other);
     void clear();
 };
@@ -111,6 +122,7 @@ struct PassParts {
     /// Diffuse points that records serve, by errors below the octree's tolerance, have their gathered light
     /// from them. Null: none.
     const IrradianceOctree* irradiance = nullptr;
+    bool octree_searches = false;  ///< Keep the searches of it.
 };
 
 class QueryPass {

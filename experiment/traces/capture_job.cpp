@@ -67,6 +67,12 @@ std::string irradiance_figures(const trace::TraceInfo& info) {
         count("irradiance_rays_saved"));
 }
 
+std::string octree_figures(const trace::TraceInfo& info) {
+    return fmt::format("  its octree: {} searches, {:.1f} cells and records visited a search\n", info.queries,
+                       static_cast<double>(info.visited_nodes) /
+                           static_cast<double>(std::max<std::uint64_t>(info.queries, 1)));
+}
+
 /// Where the parts of one captured frame lie.
 struct Files {
     explicit Files(const fs::path& folder)
@@ -74,8 +80,9 @@ struct Files {
           png(folder / "image.png"),
           trace(folder / "trace"),
           caustic_trace(folder / "caustic-trace"),
-          guide_trace(folder / "guide-trace") {}
-    fs::path exr, png, trace, caustic_trace, guide_trace;
+          guide_trace(folder / "guide-trace"),
+          irradiance_trace(folder / "irradiance-trace") {}
+    fs::path exr, png, trace, caustic_trace, guide_trace, irradiance_trace;
 };
 
 /// What is said of a finished capture of the same; nothing when there is none.
@@ -99,6 +106,8 @@ std::optional<std::string> kept(const fs::path& folder, const Files& files, cons
     if (capture::has_guide(config)) report += figures(trace::TraceReader(files.guide_trace).info());
     report += record_figures(trace.info());
     report += irradiance_figures(trace.info());
+    if (capture::has_irradiance_cache(config))
+        report += octree_figures(trace::TraceReader(files.irradiance_trace).info());
     return report;
 }
 
@@ -120,10 +129,11 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
             fs::remove_all(to);
         return wanted ? &*further : nullptr;
     };
-    std::optional<trace::TraceWriter> caustic_writer, guide_writer;
+    std::optional<trace::TraceWriter> caustic_writer, guide_writer, irradiance_writer;
     const capture::TraceWriters writers{
         &writer, further_trace(caustic_writer, has_caustics, files.caustic_trace),
-        further_trace(guide_writer, capture::has_guide(config), files.guide_trace)};
+        further_trace(guide_writer, capture::has_guide(config), files.guide_trace),
+        further_trace(irradiance_writer, capture::has_irradiance_cache(config), files.irradiance_trace)};
     const std::string shown = trace::shown(scene.name);
     const std::string name = config.frame ? fmt::format("{}, frame {}", shown, *config.frame) : shown;
     config.progress = [&](std::string_view stage, std::uint64_t done, std::uint64_t total) {
@@ -138,6 +148,7 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
     capture::write_png(files.png, captured.image, exposure, options.tone_curve());
     if (caustic_writer) caustic_writer->finish(*captured.caustic_info);
     if (guide_writer) guide_writer->finish(*captured.guide_info);
+    if (irradiance_writer) irradiance_writer->finish(*captured.irradiance_info);
     writer.finish(captured.info);
 
     std::string report =
@@ -147,6 +158,7 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
     if (captured.guide_info) report += figures(*captured.guide_info);
     report += record_figures(captured.info);
     report += irradiance_figures(captured.info);
+    if (captured.irradiance_info) report += octree_figures(*captured.irradiance_info);
     report += fmt::format(
         "  seconds: photons {:.1f}, trees {:.1f}, queries {:.1f}, gathers {:.1f}, writing {:.1f}\n",
         captured.photon_seconds, captured.tree_seconds, captured.query_seconds, captured.gather_seconds,
@@ -158,6 +170,7 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
                           files.trace.string(),
                           caustic_writer ? fmt::format(" and {}", files.caustic_trace.string()) : "",
                           guide_writer ? fmt::format(" and {}", files.guide_trace.string()) : "");
+    if (irradiance_writer) report += fmt::format("  octree's trace: {}\n", files.irradiance_trace.string());
     return report;
 }
 

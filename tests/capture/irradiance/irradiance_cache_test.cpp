@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "capture/capture.h"
+#include "spatial/listed_columns.h"
 #include "tests/capture/small_scenes.h"
 #include "tests/scratch.h"
 #include "trace/error.h"
@@ -101,7 +104,7 @@ TEST(IrradianceCache, TheImageAndTheTraceAreTheSameOnAnyNumberOfThreads) {
         const auto run = [&] {
             const Scratch scratch;
             CaptureConfig config = cached("hessian:neighbours=1");
-            config.pixels.width = config.pixels.height = 20;
+            config.pixels.width = config.pixels.height = 12;
             config.pixels.samples = 2;
             trace::TraceWriter writer(scratch / "trace", false);
             Captured found = capture(scene, config, {&writer});
@@ -112,6 +115,39 @@ TEST(IrradianceCache, TheImageAndTheTraceAreTheSameOnAnyNumberOfThreads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
         EXPECT_EQ(run(), expected) << name;
     }
+}
+
+TEST(IrradianceCache, TheOctreesTraceHoldsEachSearch) {
+    const Scratch scratch;
+    const CaptureConfig config = cached("bounded");
+    trace::TraceWriter writer(scratch / "trace", false), of_octree(scratch / "octree", false);
+    Captured found = capture(closed_box(0.5), config, {.global = &writer, .irradiance = &of_octree});
+    of_octree.finish(*found.irradiance_info);
+    writer.finish(found.info);
+    EXPECT_EQ(found.image.pixels, capture(closed_box(0.5), config).image.pixels);
+    trace::TraceReader trace(scratch / "octree");
+    const spatial::Listed structure("visits", spatial::open_elements(trace));
+    const auto bytes = structure.own_bytes();
+    EXPECT_EQ(std::accumulate(bytes.begin(), bytes.end(), std::uint64_t{0}), found.irradiance->octree_bytes);
+    const spatial::ElementRange records = structure.range_of(trace::Region::irradiance);
+    EXPECT_EQ(records.count, found.irradiance->records);
+    const IrradianceUse& use = found.irradiance->use;
+    EXPECT_EQ(trace.info().queries, use.served + use.not_served);
+    const auto walk_bytes = trace.column<std::uint32_t>("query_walk_bytes");
+    const auto pixel = trace.column<std::uint32_t>("query_pixel");
+    EXPECT_TRUE(std::is_sorted(pixel.begin(), pixel.end()));
+    auto walks = trace.column<std::uint8_t>("walk");
+    const auto decoder = structure.decoder();
+    std::uint64_t visited = 0;
+    for (const std::uint32_t length : walk_bytes) {
+        const auto [fault, elements] = decoder->decode(walks.first(length));
+        ASSERT_EQ(fault, spatial::WalkFault::none);
+        ASSERT_EQ(elements.front(), 0u);
+        visited += elements.size();
+        walks = walks.subspan(length);
+    }
+    EXPECT_TRUE(walks.empty());
+    EXPECT_EQ(visited, trace.info().visited_nodes);
 }
 
 TEST(IrradianceCache, SpecularPathsAndGlossySurfacesStayWithTheirMeans) {
