@@ -334,7 +334,7 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         octree_info.image_width = config.pixels.width;
         octree_info.image_height = config.pixels.height;
         octree_info.seed = config.pixels.seed;
-        octree_info.parameters = parameters(scene, config);
+        octree_info.parameters = trace::Json::object({{"capture", parameters(scene, config)}});
         result.irradiance_info = octree_info;
     }
     if (const std::optional<IrradianceTally>& tally = result.irradiance) {

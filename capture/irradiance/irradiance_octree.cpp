@@ -8,7 +8,7 @@ namespace regather::capture {
 namespace {
 
 constexpr std::uint32_t most_records = 1u << 30;
-constexpr double slack = 1 + 0x1p-30;  // what errors of rounding may add to a distance
+constexpr double cell_slack = 1 + 0x1p-30;  // what errors of rounding may add to a distance
 
 }  // namespace
 
@@ -18,7 +18,7 @@ IrradianceOctree::IrradianceOctree(const trace::Bounds3& box, double tolerance, 
     if (!box.empty()) {
         const Vec3d low = box.min, high = box.max;
         root.middle = (low + high) * 0.5;
-        root.half = trace::max_component(high - low) * 0.5 * slack;
+        root.half = trace::max_component(high - low) * 0.5 * cell_slack;
     }
     nodes_.push_back({{none, none, none, none, none, none, none, none}, none, none});
     cells_.push_back(root);
@@ -30,7 +30,7 @@ bool IrradianceOctree::descends(const IrradianceRecord& record, std::uint32_t no
     const Cell& cell = cells_[node];
     // A child is as wide as half of this cell.
     if (cell.level == most_levels || !(cell.half > 0) ||
-        cell.half < 2 * reach_of(record, tolerance_) * slack || !(distance(cell, record.position) <= 0))
+        cell.half < 2 * reach_of(record, tolerance_) * cell_slack || !(distance(cell, record.position) <= 0))
         return false;
     octant = 0;
     for (int axis = 0; axis < 3; ++axis)

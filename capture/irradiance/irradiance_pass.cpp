@@ -10,8 +10,8 @@ namespace regather::capture {
 namespace {
 
 constexpr std::uint64_t seen_pixels = 4096, hemisphere_points = 32;  // one thread's at a time
-constexpr std::size_t batch_rays = 1 << 19;                          // held at once
-constexpr float least_cosine = 0.1f;
+constexpr std::size_t hemisphere_rays = 1 << 19;                     // held at once
+constexpr float least_footprint_cosine = 0.1f;
 
 }  // namespace
 
@@ -50,7 +50,7 @@ void IrradiancePass::find_points() {
             found_.push_back(point);
             // Straight from the camera, also behind mirrors: a path's own footprint knows no bound there.
             const float distance = trace::length(point.at.position - scene_.camera.position);
-            const float cosine = std::max(dot(point.at.normal, point.at.to_viewer), least_cosine);
+            const float cosine = std::max(dot(point.at.normal, point.at.to_viewer), least_footprint_cosine);
             points_.push_back({{point.at.position, point.at.normal},
                                point.pixel % config_.width,
                                point.pixel / config_.width,
@@ -65,7 +65,7 @@ bool IrradiancePass::next(PixelWork& work) {
         if (!seeding_->next(wanted_)) return false;
     }
     const std::size_t count =
-        std::min(std::max<std::size_t>(batch_rays / grid_.cells(), 1), wanted_.size() - begun_);
+        std::min(std::max<std::size_t>(hemisphere_rays / grid_.cells(), 1), wanted_.size() - begun_);
     const std::size_t cells = grid_.cells();
     incoming_.assign(count * cells, {});
     query_.assign(count * cells, PixelPaths::no_query);

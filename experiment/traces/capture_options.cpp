@@ -168,6 +168,9 @@ std::vector<IdleKeys> idle_keys(const CaptureOptions& options) {
                         "mode",
                         "direct",
                         "casts no such rays"});
+    if (options.photon_record == "16")
+        idle.push_back(
+            {{"irradiance_cache"}, "photon_record", "16", "is told from two gathers of each pixel"});
     if (options.gather_rays == 0)
         idle.push_back({{"irradiance_cache"}, "gather_rays", "0", "gathers nothing"});
     if (options.caustic_photons == 0)

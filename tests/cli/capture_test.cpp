@@ -38,6 +38,36 @@ TEST(Capture, PackedPhotonsAreTraceAndPictureAndWhatTheyCostIsTold) {
                    {"--photon-record", "18"});
 }
 
+TEST(Capture, AnIrradianceCacheIsToldAndItsOctreeIsATrace) {
+    const Scratch scratch;
+    using Words = std::vector<std::string>;
+    const Words words = small_capture(scratch / "box") + Words{"--irradiance-cache", "bounded:least=1"};
+    const auto told = testing::AllOf(HasSubstr("irradiance cache: "), HasSubstr(" points served ("),
+                                     HasSubstr("its octree: "));
+    EXPECT_THAT(expect_done(words).out, told);
+    EXPECT_THAT(expect_done(words).out, testing::AllOf(HasSubstr("kept the finished capture"), told));
+    expect_done({"info", (scratch / "box/trace").string(), "--verify"});
+    const std::string octree = (scratch / "box/irradiance-trace").string();
+    EXPECT_THAT(expect_done({"info", octree, "--verify"}).out, HasSubstr("verified"));
+    EXPECT_THAT(expect_done({"replay", octree, "--order", "naive", "hilbert"}).out, HasSubstr("hilbert"));
+    const std::string rows = (scratch / "detail.csv").string();
+    expect_done({"detail", octree, "--order", "naive", "--cache", "1K:128:2", "--csv", rows});
+    EXPECT_THAT(content(rows), testing::AllOf(HasSubstr(",nodes,"), HasSubstr(",irradiance,")));
+    // Another capture into the folder leaves no octree of this one.
+    expect_done(small_capture(scratch / "box") + Words{"--force"});
+    EXPECT_FALSE(fs::exists(octree));
+    const auto refused = [&](const Words& with, const std::vector<std::string>& parts) {
+        expect_refused(bad_usage, Words{"capture", "box", "-o", (scratch / "no").string()} + with, parts);
+        EXPECT_FALSE(fs::exists(scratch / "no"));
+    };
+    refused({"--irradiance-cache", "bonded"}, {"irradiance cache", "bonded", "nearest: bounded"});
+    refused({"--irradiance-cache", "bounded", "--mode", "direct"}, {"--irradiance-cache", "--mode direct"});
+    refused({"--irradiance-cache", "bounded", "--gather-rays", "0"},
+            {"--irradiance-cache", "--gather-rays 0"});
+    refused({"--irradiance-cache", "bounded", "--photon-record", "16"},
+            {"--irradiance-cache", "--photon-record 16"});
+}
+
 TEST(Capture, TheSameIsKeptAndOthersNeedForce) {
     const Scratch scratch;
     const std::vector<std::string> words =

@@ -9,6 +9,7 @@
 
 #include "capture/capture.h"
 #include "spatial/listed_columns.h"
+#include "tests/capture/counts.h"
 #include "tests/capture/small_scenes.h"
 #include "tests/scratch.h"
 #include "trace/error.h"
@@ -46,9 +47,6 @@ double difference(const Image& a, const Image& b) {
     const Vec3d mean = mean_of(a);
     return std::sqrt(sum / static_cast<double>(a.pixels.size())) / ((mean.x + mean.y + mean.z) / 3);
 }
-std::uint64_t count(const Captured& captured, const char* name) {
-    return *captured.info.counts.find(name)->whole();
-}
 
 // A gather with 48 rays has noise of its own in each pixel, so the reference takes 300.
 TEST(IrradianceCache, ShowsWhatGatheringEveryPixelShowsByFewerRays) {
@@ -78,17 +76,17 @@ TEST(IrradianceCache, CountsAddUpAndWeightsAreThoseOfThePixel) {
     writer.finish(found.info);
     trace::TraceReader trace(scratch / "trace");
     // All pixels see diffuse walls or the light, which is black; every ray in the box ends at one of them.
-    const std::uint64_t served = count(found, "irradiance_points_served"),
-                        not_served = count(found, "irradiance_points_not_served"),
-                        records = count(found, "irradiance_records"), cells = 4 * 12;
+    const std::uint64_t served = count(found.info.counts, "irradiance_points_served"),
+                        not_served = count(found.info.counts, "irradiance_points_not_served"),
+                        records = count(found.info.counts, "irradiance_records"), cells = 4 * 12;
     EXPECT_LE(served + not_served, 36u * 26);
     EXPECT_GT(served + not_served, 36u * 26 * 9 / 10);
-    EXPECT_EQ(count(found, "irradiance_rays_saved"), served * 48);
-    EXPECT_EQ(count(found, "irradiance_rays"), records * cells);
-    EXPECT_EQ(count(found, "gather_rays"), records * cells + not_served * 48);
-    EXPECT_EQ(trace.column<Vec3>("ray_gather_origin").size(), count(found, "gather_rays"));
-    EXPECT_LE(count(found, "irradiance_queries"), records * cells);
-    EXPECT_GT(count(found, "irradiance_octree_bytes"), 132 * records);
+    EXPECT_EQ(count(found.info.counts, "irradiance_rays_saved"), served * 48);
+    EXPECT_EQ(count(found.info.counts, "irradiance_rays"), records * cells);
+    EXPECT_EQ(count(found.info.counts, "gather_rays"), records * cells + not_served * 48);
+    EXPECT_EQ(trace.column<Vec3>("ray_gather_origin").size(), count(found.info.counts, "gather_rays"));
+    EXPECT_LE(count(found.info.counts, "irradiance_queries"), records * cells);
+    EXPECT_GT(count(found.info.counts, "irradiance_octree_bytes"), 132 * records);
     EXPECT_EQ(
         *trace.info().parameters.find("irradiance_cache")->text(),
         "bounded:tolerance=20,distance=harmonic,gradients=1,neighbours=1,overture=16,rays=0,least=3,most=20");

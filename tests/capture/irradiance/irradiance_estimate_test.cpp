@@ -12,8 +12,6 @@
 namespace regather::capture {
 namespace {
 
-constexpr float nothing = std::numeric_limits<float>::infinity();
-
 Vec3d rotated(Vec3d v, Vec3d axis, double angle) {
     return v * std::cos(angle) + trace::cross(axis, v) * std::sin(angle) +
            axis * (trace::dot(axis, v) * (1 - std::cos(angle)));
@@ -139,16 +137,16 @@ TEST(IrradianceEstimate, HarmonicMeansOfKnownRooms) {
     EXPECT_NEAR(ceiling.harmonic_distance, 3, 0.003);
     EXPECT_NEAR(ceiling.nearest, 2, 0.02);
     EXPECT_NEAR(with([](float cosine) { return 6 * cosine; }).harmonic_distance, 3, 0.15);
-    EXPECT_NEAR(with([](float cosine) { return cosine > 0.6f ? 4 : nothing; }).harmonic_distance,
+    EXPECT_NEAR(with([](float cosine) { return cosine > 0.6f ? 4 : unmet; }).harmonic_distance,
                 4 / (1 - 0.36), 0.1);
-    EXPECT_EQ(with([](float) { return nothing; }).harmonic_distance, nothing);
-    EXPECT_EQ(with([](float) { return nothing; }).nearest, nothing);
+    EXPECT_EQ(with([](float) { return unmet; }).harmonic_distance, unmet);
+    EXPECT_EQ(with([](float) { return unmet; }).nearest, unmet);
 }
 
 TEST(IrradianceEstimate, IsFiniteForAnySamples) {
     const HemisphereGrid grid(4, 7);
     const Frame frame({0, 0, 1});
-    const float odd[] = {0, -1, std::numeric_limits<float>::quiet_NaN(), nothing, 1e-45f, 3e38f};
+    const float odd[] = {0, -1, std::numeric_limits<float>::quiet_NaN(), unmet, 1e-45f, 3e38f};
     std::uint32_t n = 0;
     const IrradianceEstimate found =
         estimate_irradiance(grid, frame, hemisphere(grid, frame, [&](Incoming& sample) {

@@ -17,12 +17,9 @@ using testing::HasSubstr;
 using testing::Property;
 using testing::Throws;
 
-constexpr float nothing = std::numeric_limits<float>::infinity();
-constexpr Vec3 up{0, 0, 1};
-
 IrradianceRecord flat_record(float longer, float shorter) {
     IrradianceRecord record;
-    record.normal = up;
+    record.normal = upwards;
     record.axis = {1, 0, 0};
     record.longer = longer;
     record.shorter = shorter;
@@ -31,25 +28,26 @@ IrradianceRecord flat_record(float longer, float shorter) {
 }
 
 TEST(IrradianceRecord, ItsErrorIsDistanceOverRAndTheTurnOfTheNormal) {
-    EXPECT_NEAR(error_at(flat_record(2, 2), {{0.3f, 0.4f, 0}, up}), 0.25, 1e-7);
+    EXPECT_NEAR(error_at(flat_record(2, 2), {{0.3f, 0.4f, 0}, upwards}), 0.25, 1e-7);
     const double turned = std::sqrt(1 - 0.8);
     EXPECT_NEAR(error_at(flat_record(2, 2), {{0, 0, 0}, {0.6f, 0, 0.8f}}), turned, 1e-6);
     EXPECT_NEAR(error_at(flat_record(2, 2), {{0.3f, 0.4f, 0}, {0.6f, 0, 0.8f}}), 0.25 + turned, 1e-6);
     const IrradianceRecord ellipse = flat_record(2, 1);
-    EXPECT_NEAR(error_at(ellipse, {{0.6f, 0, 0}, up}), 0.3, 1e-7);
-    EXPECT_NEAR(error_at(ellipse, {{0, 0.6f, 0}, up}), 0.6, 1e-7);
-    EXPECT_NEAR(error_at(ellipse, {{0.6f, 0, 0.8f}, up}), std::sqrt(0.09 + 0.64), 1e-7) << "off the surface";
-    EXPECT_EQ(error_at(flat_record(0, 0), {{0, 0, 0}, up}), 0);
-    EXPECT_EQ(error_at(flat_record(0, 0), {{0, 1e-9f, 0}, up}), nothing);
+    EXPECT_NEAR(error_at(ellipse, {{0.6f, 0, 0}, upwards}), 0.3, 1e-7);
+    EXPECT_NEAR(error_at(ellipse, {{0, 0.6f, 0}, upwards}), 0.6, 1e-7);
+    EXPECT_NEAR(error_at(ellipse, {{0.6f, 0, 0.8f}, upwards}), std::sqrt(0.09 + 0.64), 1e-7)
+        << "off the surface";
+    EXPECT_EQ(error_at(flat_record(0, 0), {{0, 0, 0}, upwards}), 0);
+    EXPECT_EQ(error_at(flat_record(0, 0), {{0, 1e-9f, 0}, upwards}), unmet);
 }
 
 TEST(IrradianceRecord, ServesWithinItsReachAndNotBehind) {
     const IrradianceRecord record = flat_record(2, 2);
-    EXPECT_TRUE(serves(record, {{0.39f, 0, 0}, up}, 0.2));
-    EXPECT_FALSE(serves(record, {{0.41f, 0, 0}, up}, 0.2));
-    EXPECT_TRUE(serves(record, {{0.41f, 0, 0}, up}, 0.25));
-    EXPECT_TRUE(serves(record, {{0, 0, 0.3f}, up}, 0.2));
-    EXPECT_FALSE(serves(record, {{0, 0, -0.3f}, up}, 0.2)) << "behind";
+    EXPECT_TRUE(serves(record, {{0.39f, 0, 0}, upwards}, 0.2));
+    EXPECT_FALSE(serves(record, {{0.41f, 0, 0}, upwards}, 0.2));
+    EXPECT_TRUE(serves(record, {{0.41f, 0, 0}, upwards}, 0.25));
+    EXPECT_TRUE(serves(record, {{0, 0, 0.3f}, upwards}, 0.2));
+    EXPECT_FALSE(serves(record, {{0, 0, -0.3f}, upwards}, 0.2)) << "behind";
     // On a sphere of radius 1 the plane midway between the normals holds both points.
     EXPECT_TRUE(
         serves(record, {{std::sin(0.1f), 0, std::cos(0.1f) - 1}, {std::sin(0.1f), 0, std::cos(0.1f)}}, 0.2));
@@ -57,7 +55,7 @@ TEST(IrradianceRecord, ServesWithinItsReachAndNotBehind) {
 }
 
 TEST(IrradianceMean, WeighsByTheInverseError) {
-    const IrradiancePoint point{{0.5f, 0, 0}, up};
+    const IrradiancePoint point{{0.5f, 0, 0}, upwards};
     IrradianceRecord near = flat_record(2, 2), far = flat_record(1, 1);
     far.position = {1, 0, 0};
     far.irradiance = {7, 0, 1};
@@ -68,7 +66,7 @@ TEST(IrradianceMean, WeighsByTheInverseError) {
     mean.add(far);   // weight 2
     EXPECT_NEAR(mean.irradiance().x, (4 * 1 + 2 * 7) / 6.0, 1e-6);
     EXPECT_NEAR(mean.irradiance().y, 4 * 2 / 6.0, 1e-6);
-    IrradianceMean own({{0, 0, 0}, up});
+    IrradianceMean own({{0, 0, 0}, upwards});
     own.add(near);
     own.add(far);
     EXPECT_NEAR(own.irradiance().x, 1, 1e-4) << "a record is right at its own point";
@@ -76,7 +74,7 @@ TEST(IrradianceMean, WeighsByTheInverseError) {
 
 // E = 5 + 2 x - y is what any weights give; and what its gradients say is below 0 counts as 0.
 TEST(IrradianceMean, ExtrapolatesByGradients) {
-    IrradianceMean mean({{0.5f, 0.25f, 0}, up});
+    IrradianceMean mean({{0.5f, 0.25f, 0}, upwards});
     for (const Vec3 at : {Vec3{0, 0, 0}, {1, 0.5f, 0}, {0.3f, -0.4f, 0}}) {
         IrradianceRecord record = flat_record(2, 1);
         record.position = at;
@@ -86,7 +84,7 @@ TEST(IrradianceMean, ExtrapolatesByGradients) {
     }
     EXPECT_NEAR(mean.irradiance().x, 5 + 1 - 0.25, 1e-6);
     EXPECT_NEAR(mean.irradiance().y, 1, 1e-6);
-    IrradianceMean dark({{1, 0, 0}, up});
+    IrradianceMean dark({{1, 0, 0}, upwards});
     IrradianceRecord steep = flat_record(2, 2);
     steep.translation[0] = {-8, 0, 0};
     dark.add(steep);
@@ -100,9 +98,9 @@ TEST(IrradianceMean, GradientsOfARectangleLead) {
     const auto corners = light.corners();
     const HemisphereGrid grid(60, 190);
     const Vec3 at{0.4f, 0.3f, 0};
-    const auto incoming = hemisphere(grid, Frame(up), light_of(light, at, {1, 1, 1}));
+    const auto incoming = hemisphere(grid, Frame(upwards), light_of(light, at, {1, 1, 1}));
     const IrradianceRecord record =
-        make_record(parse_irradiance_cache("split-sphere"), {grid, {at, up}, incoming, 0, 100});
+        make_record(parse_irradiance_cache("split-sphere"), {grid, {at, upwards}, incoming, 0, 100});
     const auto check = [&](Vec3 position, Vec3 normal) {
         IrradianceMean mean({position, normal});
         mean.add(record);
@@ -111,9 +109,9 @@ TEST(IrradianceMean, GradientsOfARectangleLead) {
         const double constant = std::fabs(static_cast<double>(record.irradiance.x) - truth);
         EXPECT_LT(led, 0.25 * constant) << position.x << ", " << normal.x;
     };
-    check(at + Vec3{0, 0.1f, 0}, up);
-    check(at + Vec3{0, -0.1f, 0}, up);
-    check(at + Vec3{0.05f, -0.1f, 0}, up);
+    check(at + Vec3{0, 0.1f, 0}, upwards);
+    check(at + Vec3{0, -0.1f, 0}, upwards);
+    check(at + Vec3{0.05f, -0.1f, 0}, upwards);
     check(at, {0.05f, 0.1f, std::sqrt(0.9875f)});
     check(at, {0, 0.1f, std::sqrt(0.99f)});
     check(at, {0, -0.1f, std::sqrt(0.99f)});
@@ -121,11 +119,11 @@ TEST(IrradianceMean, GradientsOfARectangleLead) {
 
 IrradianceRecord under_ceiling(const char* spec, double spacing, double far = 100) {
     const HemisphereGrid grid(60, 40);
-    const auto incoming = hemisphere(grid, Frame(up), [](Incoming& sample) {
+    const auto incoming = hemisphere(grid, Frame(upwards), [](Incoming& sample) {
         sample.distance = 2 / sample.direction.z;
         sample.radiance = {1, 1, 1};
     });
-    return make_record(parse_irradiance_cache(spec), {grid, {{}, up}, incoming, spacing, far});
+    return make_record(parse_irradiance_cache(spec), {grid, {{}, upwards}, incoming, spacing, far});
 }
 
 TEST(IrradianceMetric, RIsTheDistanceOfWhatIsMet) {
@@ -143,20 +141,20 @@ TEST(IrradianceMetric, BoundsAreReachesInSpacingsOfPixels) {
     EXPECT_NEAR(under_ceiling("bounded:tolerance=10,least=1,most=7", 0.02).longer, 0.14 * 10, 1e-5);
     EXPECT_NEAR(under_ceiling("hessian", 0.25, 3).longer, 3 * 5, 1e-5) << "no curvature: as far as it sees";
     EXPECT_NEAR(under_ceiling("hessian:most=8", 0.25, 3).longer, 2 * 5, 1e-5);
-    for (const double unknown : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), double{nothing}})
+    for (const double unknown : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), double{unmet}})
         EXPECT_NEAR(under_ceiling("bounded", unknown).longer, 3, 0.01);
 }
 
 TEST(IrradianceMetric, RIsAtMostWhereTheGradientWouldTakeAllLight) {
     const Rectangle light{{0.8, -0.3, 0.4}, {0.1, 0, 0}, {0, 0.5, 0}};
     const HemisphereGrid grid(200, 628);
-    const auto incoming = hemisphere(grid, Frame(up), light_of(light, {}, {1, 1, 1}));
+    const auto incoming = hemisphere(grid, Frame(upwards), light_of(light, {}, {1, 1, 1}));
     const auto corners = light.corners();
     const auto moved = [&](Vec3d step) { return lambert(corners, step, {0, 0, 1}); };
     const Vec3d move{slope(moved, {1e-4, 0, 0}), slope(moved, {0, 1e-4, 0}), 0};
     const double expected = lambert(corners, {}, {0, 0, 1}) / trace::length(move);
     const auto of = [&](const char* spec, double spacing) {
-        return make_record(parse_irradiance_cache(spec), {grid, {{}, up}, incoming, spacing, 100});
+        return make_record(parse_irradiance_cache(spec), {grid, {{}, upwards}, incoming, spacing, 100});
     };
     EXPECT_NEAR(of("bounded", 0).longer, expected, 0.1 * expected);
     EXPECT_GT(of("split-sphere", 0).longer, 5 * expected);
@@ -173,13 +171,13 @@ TEST(IrradianceMetric, RIsAtMostWhereTheGradientWouldTakeAllLight) {
 TEST(IrradianceMetric, TheHessiansEllipseLiesAlongTheBar) {
     const Rectangle bar{{0.1, -3, 0.3}, {0.2, 0, 0}, {0, 6, 0}};
     const HemisphereGrid grid(40, 126);
-    const auto incoming = hemisphere(grid, Frame(up), [&](Incoming& sample) {
+    const auto incoming = hemisphere(grid, Frame(upwards), [&](Incoming& sample) {
         sample.radiance = {1, 1, 1};
         if (const auto met = bar.met({}, sample.direction))
             sample.radiance = {}, sample.distance = static_cast<float>(*met);
     });
     const IrradianceRecord record =
-        make_record(parse_irradiance_cache("hessian"), {grid, {{}, up}, incoming, 0, 10});
+        make_record(parse_irradiance_cache("hessian"), {grid, {{}, upwards}, incoming, 0, 10});
     EXPECT_GT(std::fabs(record.axis.y), 0.98);
     EXPECT_GT(record.longer, 1.6f * record.shorter);
     const auto corners = bar.corners();
@@ -191,18 +189,19 @@ TEST(IrradianceMetric, TheHessiansEllipseLiesAlongTheBar) {
 
 TEST(IrradianceMetric, RecordsAreFiniteWhateverWasGathered) {
     const HemisphereGrid grid(3, 5);
-    const float odd[] = {0, -1, std::numeric_limits<float>::quiet_NaN(), nothing, 1e-45f, 3e38f, 1};
+    const float odd[] = {0, -1, std::numeric_limits<float>::quiet_NaN(), unmet, 1e-45f, 3e38f, 1};
     for (const IrradianceMetric& metric : irradiance_metrics())
         for (const float light : odd)
             for (const float distance : odd)
                 for (const float spacing : odd) {
                     std::uint32_t n = 0;
-                    const auto incoming = hemisphere(grid, Frame(up), [&](Incoming& sample) {
+                    const auto incoming = hemisphere(grid, Frame(upwards), [&](Incoming& sample) {
                         sample.radiance = n++ % 3 == 0 ? Vec3{light, 1, 0} : Vec3{light, light, light};
                         sample.distance = n % 4 == 0 ? 1 : distance;
                     });
-                    const IrradianceRecord record = make_record(
-                        parse_irradiance_cache(metric.name), {grid, {{1, 2, 3}, up}, incoming, spacing, 30});
+                    const IrradianceRecord record =
+                        make_record(parse_irradiance_cache(metric.name),
+                                    {grid, {{1, 2, 3}, upwards}, incoming, spacing, 30});
                     for (const Vec3 v : {record.irradiance, record.rotation[0], record.translation[0],
                                          record.translation[1], record.axis})
                         ASSERT_TRUE(trace::is_finite(v)) << metric.name << light << distance << spacing;

@@ -10,6 +10,7 @@
 
 #include "capture/sampler.h"
 #include "spatial/list_walk.h"
+#include "tests/capture/irradiance/rectangle_light.h"
 #include "tests/spatial/recorded_visits.h"
 
 namespace regather::capture {
@@ -18,12 +19,10 @@ namespace {
 using testing::ElementsAre;
 using trace::Region;
 
-constexpr Vec3 up{0, 0, 1};
-
 IrradianceRecord circle_at(Vec3 position, float radius) {
     IrradianceRecord record;
     record.position = position;
-    record.normal = up;
+    record.normal = upwards;
     record.axis = {1, 0, 0};
     record.longer = record.shorter = radius;
     record.irradiance = {1, 1, 1};
@@ -32,16 +31,16 @@ IrradianceRecord circle_at(Vec3 position, float radius) {
 
 /// Half of them on a grid, so that points are at equal distances and on the planes of cells; some beyond the
 /// box.
-struct Scatter {
+struct AnyRecords {
     Sampler sampler;
-    explicit Scatter(std::uint64_t seed) : sampler(seed, Stream::gather, 5) {}
+    explicit AnyRecords(std::uint64_t seed) : sampler(seed, Stream::gather, 5) {}
     float coordinate() {
         if (sampler.below(2) == 0) return (static_cast<float>(sampler.below(20)) - 2) * 0.5f;
         return sampler.uniform() * 10 - 1;
     }
     Vec3 position() { return {coordinate(), coordinate(), coordinate()}; }
     Vec3 normal() {
-        const Vec3 normals[] = {up, up, up, {0, -0.28f, 0.96f}, {0.96f, 0.28f, 0}};
+        const Vec3 normals[] = {upwards, upwards, upwards, {0, -0.28f, 0.96f}, {0.96f, 0.28f, 0}};
         return normals[sampler.below(5)];
     }
     IrradianceRecord record() {
@@ -55,26 +54,26 @@ struct Scatter {
         return found;
     }
 };
-const trace::Bounds3 box{{0, 0, 0}, {8, 6, 8}};
+const trace::Bounds3 records_box{{0, 0, 0}, {8, 6, 8}};
 
 TEST(IrradianceOctree, FindsWhatLookingAtEveryRecordFindsAndItsWalksDecode) {
     ASSERT_TRUE(rc::check([] {
-        Scatter scatter(*rc::gen::arbitrary<std::uint64_t>());
+        AnyRecords any(*rc::gen::arbitrary<std::uint64_t>());
         const double most = *rc::gen::element(0.2, 0.5, 1.0);
-        IrradianceOctree octree(box, most, *rc::gen::arbitrary<bool>());
+        IrradianceOctree octree(records_box, most, *rc::gen::arbitrary<bool>());
         const auto count = *rc::gen::inRange<std::uint32_t>(0, 120);
-        for (std::uint32_t i = 0; i < count; ++i) RC_ASSERT(octree.insert(scatter.record()) == i);
+        for (std::uint32_t i = 0; i < count; ++i) RC_ASSERT(octree.insert(any.record()) == i);
         RC_ASSERT(octree.size() == count);
         const auto structure = octree.share_structure();
         const auto decoder = structure->decoder();
         for (int i = 0; i < 60; ++i) {
-            IrradiancePoint point{scatter.position(), scatter.normal()};
+            IrradiancePoint point{any.position(), any.normal()};
             if (count > 0 && i % 3 == 0) {  // at the end of a record's reach
-                const IrradianceRecord& near = octree.record(scatter.sampler.below(count));
+                const IrradianceRecord& near = octree.record(any.sampler.below(count));
                 const auto reach = static_cast<float>(std::fmin(reach_of(near, most), 20));
                 point = {near.position, near.normal};
-                point.position[static_cast<int>(scatter.sampler.below(3))] +=
-                    (scatter.sampler.below(2) == 0 ? 0.99f : -0.99f) * reach;
+                point.position[static_cast<int>(any.sampler.below(3))] +=
+                    (any.sampler.below(2) == 0 ? 0.99f : -0.99f) * reach;
             }
             const double tolerance = i % 2 == 0 ? most : most / 2;
             std::set<std::uint32_t> found, expected;
@@ -137,7 +136,7 @@ TEST(IrradianceOctree, ASearchTouchesTheCellsWithinHalfTheirWidth) {
         spatial::RecordedVisits visits;
         OctreeElements<spatial::RecordedVisits> elements{visits, octree.nodes()};
         octree.search(
-            {at, up}, 0.5, [](std::uint32_t) {}, elements);
+            {at, upwards}, 0.5, [](std::uint32_t) {}, elements);
         return visits.visited;
     };
     EXPECT_EQ(octree.nodes(), 4u);
@@ -156,8 +155,8 @@ TEST(IrradianceOctree, ASearchTouchesTheCellsWithinHalfTheirWidth) {
 
 TEST(IrradianceOctree, ClampedRsAreAtMostANeighboursAndTheDistance) {
     ASSERT_TRUE(rc::check([] {
-        Scatter scatter(*rc::gen::arbitrary<std::uint64_t>());
-        IrradianceOctree octree(box, *rc::gen::element(0.2, 0.5, 1.0), true);
+        AnyRecords any(*rc::gen::arbitrary<std::uint64_t>());
+        IrradianceOctree octree(records_box, *rc::gen::element(0.2, 0.5, 1.0), true);
         std::vector<IrradianceRecord> plain;
         const auto shrink = [](IrradianceRecord& record, const IrradianceRecord& by) {
             const double most =
@@ -166,7 +165,7 @@ TEST(IrradianceOctree, ClampedRsAreAtMostANeighboursAndTheDistance) {
             record.shorter = std::min(record.shorter, record.longer);
         };
         for (int i = 0; i < 60; ++i) {
-            IrradianceRecord record = scatter.record();
+            IrradianceRecord record = any.record();
             octree.insert(record);
             for (const IrradianceRecord& other : plain) shrink(record, other);
             for (IrradianceRecord& other : plain) shrink(other, record);
@@ -196,9 +195,9 @@ TEST(IrradianceOctree, ABoxWithoutExtentHoldsRecordsToo) {
     octree.insert(circle_at({1, 1, 1}, 1));
     octree.insert(circle_at({1, 1, 1}, 0));
     EXPECT_EQ(octree.nodes(), 1u);
-    EXPECT_TRUE(octree.irradiance({{1, 1, 1}, up}, 0.5));
-    EXPECT_FALSE(octree.irradiance({{5, 1, 1}, up}, 0.5));
-    EXPECT_FALSE(IrradianceOctree({}, 0.5, false).irradiance({{1, 1, 1}, up}, 0.5));
+    EXPECT_TRUE(octree.irradiance({{1, 1, 1}, upwards}, 0.5));
+    EXPECT_FALSE(octree.irradiance({{5, 1, 1}, upwards}, 0.5));
+    EXPECT_FALSE(IrradianceOctree({}, 0.5, false).irradiance({{1, 1, 1}, upwards}, 0.5));
 }
 
 }  // namespace

@@ -13,6 +13,9 @@
 
 namespace regather::capture {
 
+inline constexpr Vec3 upwards{0, 0, 1};
+inline constexpr float unmet = INFINITY;  ///< The distance where nothing is met.
+
 /// What a convex polygon of radiance 1, all of it above the horizon, sends to a point with this normal.
 inline double lambert(std::span<const Vec3d> corners, Vec3d point, Vec3d normal) {
     double sum = 0;
