@@ -190,7 +190,7 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         map.heap = spatial::left_balanced(pass.photons, from);
         map.origin.resize(from.size());
         std::transform(from.begin(), from.end(), map.origin.begin(),
-                       [&](std::uint32_t photon) { return pass.origin[photon]; });
+                       [&](std::uint32_t one) { return pass.origin[one]; });
         map.tally = pass.tally;
         result.nonfinite += pass.tally.nonfinite;
         result.tree_seconds += clock.lap();

@@ -34,7 +34,7 @@ struct QueryConfig {
     bool jitter = false;  ///< ... or anywhere in the pixel.
     Visualisation visualisation = Visualisation::final_gather;
     std::string sampling{default_sampling};  ///< Of gather rays: a spec of sampling/gather_distribution.h.
-    std::string irradiance_cache;            ///< A spec of irradiance/irradiance_metric.h; empty: none.
+    std::string irradiance_cache{};          ///< A spec of irradiance/irradiance_metric.h; empty: none.
     std::uint64_t seed = 1;
 };
 
