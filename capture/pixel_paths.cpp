@@ -76,12 +76,15 @@ void PixelPaths::run(std::uint32_t pixel) {
                 ask(work_.queries, shaded_[i], Layer::indirect);
             } else {
                 const Shaded& at = shaded_[i];
-                distribution_->look({{at.material, at.normal, at.to_viewer},
-                                     at.position,
-                                     caster_.offset(at.position, at.side)});
-                if (parts_.guide_queries) ask(work_.guide_queries, at, Layer::indirect);
-                add_direct_light(shaded_[i], i);
-                add_gather_rays(shaded_[i], i);
+                const bool gathers = at.gather_rays > 0 && !is_black(*at.material) && !add_recorded_light(at);
+                if (gathers) {
+                    distribution_->look({{at.material, at.normal, at.to_viewer},
+                                         at.position,
+                                         caster_.offset(at.position, at.side)});
+                    if (parts_.guide_queries) ask(work_.guide_queries, at, Layer::indirect);
+                }
+                add_direct_light(at, i);
+                if (gathers) add_gather_rays(at, i);
             }
             if (parts_.caustics) ask(work_.caustic_queries, shaded_[i], Layer::caustic);
         }
@@ -249,7 +252,8 @@ void PixelPaths::add_light_of(const Shaded& at, Vec3 origin, const LightPoint& p
     if (caster_.occluded(origin, direction, distance)) return;
     const double to_solid_angle = static_cast<double>(distance2) / cos_light;
     double all = density * to_solid_angle;
-    if (at.material->kind == MaterialKind::glossy) all += at.gather_rays * distribution_->pdf(direction);
+    if (at.material->kind == MaterialKind::glossy && at.gather_rays > 0)
+        all += at.gather_rays * distribution_->pdf(direction);
     add(Stage::shadow, at.specular ? Layer::specular : Layer::direct,
         at.throughput * f * point.radiance *
             static_cast<float>(static_cast<double>(dot(at.normal, direction)) / all));
@@ -328,7 +332,6 @@ void PixelPaths::gather_hemisphere(const DiffusePoint& point, const HemisphereGr
 
 void PixelPaths::add_gather_rays(const Shaded& at, std::size_t number) {
     const std::uint32_t rays = at.gather_rays;
-    if (rays == 0 || is_black(*at.material) || add_recorded_light(at)) return;
     const Strata strata(rays, gather_strata_);
     const bool glossy = at.material->kind == MaterialKind::glossy;
     // The strata are visited in a random sequence: the paper's naive order knows no coherence inside a pixel.
