@@ -144,7 +144,7 @@ TEST(Chart, AnUnknownKindIsRefusedWithTheKnownOnes) {
             "chart \"pie\" is not known, expected one of traffic-by-tile, traffic-by-cache, cost-by-tile, "
             "cost-by-bins, misses-by-class, net-benefit, best-under-budget, traffic-by-frame, "
             "traffic-by-layout, traffic-by-depth, timeline, sampling-error, frame-traffic, error-by-time, "
-            "error-by-render-time, efficiency, bias-by-photons, bias-by-k, stability");
+            "error-by-render-time, efficiency, bias-by-photons, bias-by-k, computation, stability");
     }
 }
 

@@ -124,7 +124,8 @@ TEST(Words, AnOptionWithoutAWordIsRefusedInOurWords) {
 TEST(Words, NoLibrarysWordsAndNoLongNumbersReachAUser) {
     const std::string many(400, '7');
     for (const auto& [command, option] : options()) {
-        if (command == "stability") continue;  // which needs no other word to run for minutes
+        // One needs no other word to run for minutes, the other none to write a file of any name.
+        if (command == "stability" || (command == "computation" && option == "--csv")) continue;
         for (const std::string& word : {std::string("-1"), std::string("nan"), std::string("1e999"), many}) {
             const Outcome outcome = regather({command, option, word});
             EXPECT_NE(outcome.exit_code, 0);
