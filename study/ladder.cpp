@@ -128,7 +128,8 @@ std::vector<Setting> parse_ladder(std::string_view text, std::string_view file) 
         take("samples", row.samples, setting.samples, 1, 1u << 20);
         if (!row.sampling.empty()) {
             if (setting.mode == capture::Visualisation::direct)
-                refuse("sampling", trace::in_quotes(row.sampling), "an empty cell: direct casts no such rays");
+                refuse("sampling", trace::in_quotes(row.sampling),
+                       "an empty cell: direct casts no such rays");
             setting.sampling = sampling_of(row.sampling, refuse);
         }
         if (row.radius) {

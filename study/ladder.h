@@ -29,8 +29,8 @@ std::string_view mode_name(capture::Visualisation mode);  ///< "final-gather", "
 std::vector<Setting> default_ladder(double diagonal, bool caustics);
 
 /// A table in CSV: a header with names of Setting's fields, a line a setting; what has no column stays at its
-/// default. mode: final-gather or direct; an empty radius: none; sampling: a strategy's spec. trace::DataError names file, line and
-/// column.
+/// default. mode: final-gather or direct; an empty radius: none; sampling: a strategy's spec.
+/// trace::DataError names file, line and column.
 std::vector<Setting> parse_ladder(std::string_view text, std::string_view file);
 
 }  // namespace regather::study
