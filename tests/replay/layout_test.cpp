@@ -6,6 +6,7 @@
 
 #include <set>
 
+#include "cachesim/policies/policy_sweep.h"
 #include "replay/buffered.h"
 #include "replay/detail.h"
 #include "replay/levels.h"
@@ -70,6 +71,24 @@ TEST_P(OnLayout, Compulsory) {
         const auto all = searched.lines_of(order, line_bytes, GetParam());
         EXPECT_EQ(compulsory_bytes(touched_elements(walks), layout, line_bytes),
                   std::set<std::uint64_t>(all.begin(), all.end()).size() * line_bytes);
+    }
+}
+
+TEST_P(OnLayout, OptLiesBetweenTheFloorAndWhatIsMeasured) {
+    for (const CacheConfig& cache : caches) {
+        const cachesim::PolicyConfig best[] = {{cache, cachesim::Policy::opt}};
+        cachesim::PolicySweep sweep(best);
+        for (const std::uint64_t line : lines(cache)) {
+            const cachesim::ByteAccess read{line * cache.line_bytes, 1, cachesim::Access::read};
+            sweep.access({&read, 1});
+        }
+        const std::uint64_t opt = sweep.finish([](auto, auto) {})[0].stats.misses;
+        const ReplayConfig config{{cache}, false};
+        const Replayed found = replay(walks, layout, order, config, count_revisits(walks, layout, config));
+        EXPECT_LE(compulsory_bytes(touched_elements(walks), layout, cache.line_bytes),
+                  opt * cache.line_bytes);
+        EXPECT_LE(opt, found.caches[0].misses);
+        if (cache.ways > 1) EXPECT_LT(opt, found.caches[0].misses);
     }
 }
 
