@@ -16,8 +16,8 @@ namespace regather::capture {
 /// Of a material that is diffuse or glossy, and not black.
 struct ShadedPoint {
     GatherPoint surface{};
-    Vec3 position;  ///< [scene units]
-    Vec3 origin;    ///< Of rays that leave it [scene units].
+    Vec3 position{};  ///< [scene units]
+    Vec3 origin{};    ///< Of rays that leave it [scene units].
 };
 
 struct GatherSample {
