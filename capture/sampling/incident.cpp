@@ -9,7 +9,7 @@
 namespace regather::capture {
 namespace {
 
-constexpr trace::Parameter parameters[] = {
+constexpr trace::Parameter incident_keys[] = {
     {"rows", "4", "of the table, by the angle to the normal"},
     {"columns", "16", "of the table, about the normal; an even number"},
     {"k", "400", "photons that are asked"},
@@ -99,7 +99,7 @@ void check(const trace::Parameters& given) {
 }  // namespace
 
 std::span<const trace::Parameter> incident_parameters() {
-    return parameters;
+    return incident_keys;
 }
 
 std::unique_ptr<GatherDistribution> make_incident(const trace::Parameters& given, const PhotonGuide& guide) {

@@ -8,7 +8,7 @@
 namespace regather::capture {
 namespace {
 
-constexpr trace::Parameter parameters[] = {
+constexpr trace::Parameter oracle_keys[] = {
     {"rows", "4", "of the table, by the angle to the normal"},
     {"columns", "16", "of the table, about the normal; an even number"},
     {"floor", "5", "[%] of the density that looks at no light"},
@@ -51,7 +51,7 @@ private:
 }  // namespace
 
 std::span<const trace::Parameter> oracle_parameters() {
-    return parameters;
+    return oracle_keys;
 }
 
 std::unique_ptr<GatherDistribution> make_oracle(const trace::Parameters& given, const PhotonGuide& guide) {

@@ -23,7 +23,7 @@ std::string file_of(const trace::TraceReader& trace) {
     return trace::shown((trace.folder() / "trace.json").string(), trace::most_shown_path);
 }
 
-std::uint64_t count_of(const trace::TraceReader& trace, const std::string& name, std::uint64_t least = 0) {
+std::uint64_t counter_of(const trace::TraceReader& trace, const std::string& name, std::uint64_t least = 0) {
     const trace::Json* const found = trace.info().counts.find(name);
     if (found && found->is_whole() && *found->whole() >= least) return *found->whole();
     throw trace::DataError(
@@ -116,7 +116,7 @@ void measure_rays(CountedValues& to, const CaptureTraces& traces,
     double rays = 0, triangles = 0, nodes = 0;
     std::string walked, unwalked;
     for (const std::string_view kind : trace::ray_kinds) {
-        const std::uint64_t count = count_of(*traces.photons, fmt::format("{}_rays", kind));
+        const std::uint64_t count = counter_of(*traces.photons, fmt::format("{}_rays", kind));
         if (count == 0) continue;
         rays += static_cast<double>(count);
         const auto found = std::find_if(traces.rays.begin(), traces.rays.end(), [&](const auto& trace) {
@@ -199,14 +199,14 @@ CountedValues counted_values(const CaptureTraces& traces) {
     const trace::TraceReader& trace = *traces.photons;
     const trace::TraceInfo& info = trace.info();
     CountedValues out;
-    const std::uint64_t eye = count_of(trace, "eye_rays", 1);
+    const std::uint64_t eye = counter_of(trace, "eye_rays", 1);
     const std::uint64_t pixels = std::uint64_t{info.image_width} * info.image_height;
     take(out, Input::pixels, static_cast<double>(pixels), "image_width x image_height", trace);
     take(out, Input::samples, ratio(eye, pixels), "counts.eye_rays / pixels", trace);
     for (const auto& [input, kind] :
          {std::pair(Input::specular_rays, "specular"), std::pair(Input::shadow_rays, "shadow"),
           std::pair(Input::gather_rays, "gather")})
-        take(out, input, ratio(count_of(trace, fmt::format("{}_rays", kind)), eye),
+        take(out, input, ratio(counter_of(trace, fmt::format("{}_rays", kind)), eye),
              fmt::format("counts.{}_rays / counts.eye_rays", kind), trace);
     const std::uint64_t caustic = traces.caustic_photons ? traces.caustic_photons->info().queries : 0;
     take(out, Input::gathers, ratio(info.queries, eye) + ratio(caustic, eye),

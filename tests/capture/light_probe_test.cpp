@@ -24,7 +24,7 @@ scenes::Scene scene_of(const std::string& surface) {
 }
 
 /// Photons of 3 W, straight from above, on a square grid of 0.1 m on the floor: 300 W / m^2.
-std::vector<trace::Photon> even_floor() {
+std::vector<trace::Photon> floor_photons() {
     std::vector<trace::Photon> photons;
     for (int i = 0; i < 160; ++i)
         for (int j = 0; j < 160; ++j) {
@@ -47,7 +47,7 @@ struct Probed {
 
     scenes::Scene scene;
     RayCaster caster;
-    std::vector<trace::Photon> heap = even_floor();
+    std::vector<trace::Photon> heap = floor_photons();
     spatial::PhotonKd photons{heap};
 };
 

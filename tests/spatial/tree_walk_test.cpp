@@ -79,7 +79,7 @@ RC_GTEST_PROP(TreeWalk, DecodesToTheVisits, ()) {
 }
 
 /// The bits of a walk, so many bytes.
-std::vector<std::uint8_t> walk_of(const std::vector<bool>& bits) {
+std::vector<std::uint8_t> bytes_of_walk(const std::vector<bool>& bits) {
     std::vector<std::uint8_t> bytes((bits.size() + 7) / 8, 0);
     for (std::size_t i = 0; i < bits.size(); ++i)
         if (bits[i]) bytes[i / 8] = static_cast<std::uint8_t>(bytes[i / 8] | 128 >> i % 8);
@@ -104,10 +104,10 @@ TEST(TreeWalk, GoesDeeperThanAWordOfBits) {
         enter_one.push_back(true);
 
         TreeWalkDecoder decoder(children, false);
-        const auto one = decoder.decode(walk_of(enter_one));
+        const auto one = decoder.decode(bytes_of_walk(enter_one));
         EXPECT_EQ(one.fault, WalkFault::none) << inner;
         EXPECT_EQ(std::vector(one.elements.begin(), one.elements.end()), down) << inner;
-        const auto every = decoder.decode(walk_of(enter_all));
+        const auto every = decoder.decode(bytes_of_walk(enter_all));
         EXPECT_EQ(every.fault, WalkFault::none) << inner;
         EXPECT_EQ(std::vector(every.elements.begin(), every.elements.end()), all) << inner;
     }
@@ -125,7 +125,7 @@ TEST(TreeWalk, VisitsMoreThanItHasRoomForAtFirst) {
     std::mt19937 random(5);
     const Tree tree(3000, 2, random);
     TreeWalkDecoder decoder(tree.children, false);
-    const std::vector<std::uint8_t> all = walk_of(std::vector<bool>(2 * 2999, true));
+    const std::vector<std::uint8_t> all = bytes_of_walk(std::vector<bool>(2 * 2999, true));
     const auto [fault, elements] = decoder.decode(all);
     EXPECT_EQ(fault, WalkFault::none);
     EXPECT_EQ(elements.size(), 5999U);

@@ -23,12 +23,12 @@ using testing::ElementsAreArray;
 using trace::Bounds3;
 using trace::Vec3;
 
-TriangleBvh tree_of(const Soup& soup, const TriangleBvhConfig& config = {}) {
+TriangleBvh bvh_of(const Soup& soup, const TriangleBvhConfig& config = {}) {
     return TriangleBvh(soup.vertices, soup.triangles, config);
 }
 
 std::vector<std::uint32_t> labels_of(const Soup& soup, const TriangleBvhConfig& config = {}) {
-    const TriangleBvh tree = tree_of(soup, config);
+    const TriangleBvh tree = bvh_of(soup, config);
     std::vector<std::uint32_t> labels;
     for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) labels.push_back(tree.leaf_of_triangle(t));
     return labels;
@@ -70,7 +70,7 @@ TEST(TriangleBvh, SplitsWhereTheSurfaceAreaIsLeast) {
 
 TEST(TriangleBvh, EachTriangleLiesInExactlyOneLeaf) {
     const Soup soup = random_soup(5000, 0.05f, 1);
-    const TriangleBvh tree = tree_of(soup, {.leaf_size = 20, .intersection_cost = 0.1f});
+    const TriangleBvh tree = bvh_of(soup, {.leaf_size = 20, .intersection_cost = 0.1f});
     const auto count = std::uint32_t(soup.triangles.size());
     std::vector<int> met(count);
     for (std::uint32_t label = 0; label < tree.leaf_count(); ++label) {
@@ -89,7 +89,7 @@ TEST(TriangleBvh, EachTriangleLiesInExactlyOneLeaf) {
 
 TEST(TriangleBvh, ConsecutiveLeavesAreNearEachOther) {
     const Soup soup = random_soup(5000, 0.02f, 3);
-    const TriangleBvh tree = tree_of(soup);
+    const TriangleBvh tree = bvh_of(soup);
     std::vector<Bounds3> boxes;
     for (std::uint32_t label = 0; label < tree.leaf_count(); ++label) {
         std::vector<Vec3> corners;
@@ -134,7 +134,7 @@ TEST(TriangleBvh, WithoutTrianglesThereIsNoLeaf) {
 TEST(TriangleBvh, OneTriangleIsOneLeaf) {
     Soup soup;
     soup.add_spanning({0, 0, 0}, {1, 2, 3});
-    const TriangleBvh tree = tree_of(soup);
+    const TriangleBvh tree = bvh_of(soup);
     ASSERT_EQ(tree.leaf_count(), 1u);
     EXPECT_EQ(tree.leaf_of_triangle(0), 0u);
     EXPECT_EQ(tree.depth(), 0u);
@@ -156,7 +156,7 @@ TEST(TriangleBvh, ASceneInOnePlaneIsSplitInThePlane) {
     for (int axis = 0; axis < 3; ++axis) {
         Soup soup = random_soup(500, 0.05f, 6);
         for (Vec3& vertex : soup.vertices) vertex[axis] = 0.25f;
-        EXPECT_GE(tree_of(soup).leaf_count(), 125u);
+        EXPECT_GE(bvh_of(soup).leaf_count(), 125u);
     }
 }
 
@@ -166,7 +166,7 @@ TEST(TriangleBvh, DeepTreesAreBuilt) {
     float size = 1e18f;
     for (int i = 0; i < 120; ++i, size /= 2)
         soup.add_spanning({size / 2, 0, 0}, {size, size / 1000, size / 1000});
-    const TriangleBvh tree = tree_of(soup, {.leaf_size = 1});
+    const TriangleBvh tree = bvh_of(soup, {.leaf_size = 1});
     EXPECT_EQ(tree.leaf_count(), 120u);
     const std::vector<std::uint32_t> labels = labels_of(soup, {.leaf_size = 1});
     EXPECT_TRUE(std::is_sorted(labels.rbegin(), labels.rend()));
@@ -174,16 +174,16 @@ TEST(TriangleBvh, DeepTreesAreBuilt) {
 
 TEST(TriangleBvh, RefusesBadTrianglesAndConfigs) {
     Soup soup = random_soup(10, 0.1f, 7);
-    EXPECT_THROW(tree_of(soup, {.leaf_size = 0}), trace::UsageError);
-    EXPECT_THROW(tree_of(soup, {.leaf_size = 33}), trace::UsageError);
-    EXPECT_THROW(tree_of(soup, {.traversal_cost = -1}), trace::UsageError);
-    EXPECT_THROW(tree_of(soup, {.intersection_cost = std::numeric_limits<float>::infinity()}),
+    EXPECT_THROW(bvh_of(soup, {.leaf_size = 0}), trace::UsageError);
+    EXPECT_THROW(bvh_of(soup, {.leaf_size = 33}), trace::UsageError);
+    EXPECT_THROW(bvh_of(soup, {.traversal_cost = -1}), trace::UsageError);
+    EXPECT_THROW(bvh_of(soup, {.intersection_cost = std::numeric_limits<float>::infinity()}),
                  trace::UsageError);
     soup.triangles[4][2] = 30;
-    EXPECT_THROW(tree_of(soup), trace::DataError);
+    EXPECT_THROW(bvh_of(soup), trace::DataError);
     soup.triangles[4][2] = 0;
     soup.vertices[0].x = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_THROW(tree_of(soup), trace::DataError);
+    EXPECT_THROW(bvh_of(soup), trace::DataError);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ using trace::Bounds3;
 using trace::Vec3;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-TriangleKd tree_of(const Soup& soup, const TriangleKdConfig& config = {}) {
+TriangleKd kd_of(const Soup& soup, const TriangleKdConfig& config = {}) {
     return TriangleKd(soup.vertices, soup.triangles, config);
 }
 
@@ -41,7 +41,7 @@ Soup four_in_a_row() {
 }
 
 TEST(TriangleKd, SplitsFourTrianglesInARowAsByHand) {
-    const TriangleKd tree = tree_of(four_in_a_row());
+    const TriangleKd tree = kd_of(four_in_a_row());
     ASSERT_EQ(tree.leaf_count(), 5u);
     EXPECT_EQ(
         tree.stats(),
@@ -57,7 +57,7 @@ TEST(TriangleKd, SplitsFourTrianglesInARowAsByHand) {
 }
 
 TEST(TriangleKd, APointOnAPlaneLiesInTheLowerLeafAndOneOutsideInTheNearest) {
-    const TriangleKd tree = tree_of(four_in_a_row());
+    const TriangleKd tree = kd_of(four_in_a_row());
     const auto leaf_at = [&](float x) { return tree.leaf_of({x, 0.5f, 0.5f}); };
     EXPECT_EQ(leaf_at(0.5f), 0u);
     EXPECT_EQ(leaf_at(1), 0u);
@@ -83,7 +83,7 @@ TEST(TriangleKd, LabelsRunDepthFirstLowerSideFirst) {
     soup.add_spanning({0, 10, 0}, {1, 11, 1});
     soup.add_spanning({30, 0, 0}, {31, 1, 1});
     soup.add_spanning({0, 0, 0}, {1, 1, 1});
-    const TriangleKd tree = tree_of(soup);
+    const TriangleKd tree = kd_of(soup);
     const std::vector<std::uint32_t> labels{
         tree.leaf_of({0.5f, 0.5f, 0.5f}), tree.leaf_of({0.5f, 10.5f, 0.5f}),
         tree.leaf_of({30.5f, 0.5f, 0.5f}), tree.leaf_of({30.5f, 10.5f, 0.5f})};
@@ -105,7 +105,7 @@ bool contains(const Bounds3& leaf, const Bounds3& root, Vec3 p) {
 
 TEST(TriangleKd, EachPointLiesInTheBoxOfItsLeafAndInNoOther) {
     const Soup soup = random_soup(300, 0.2f, 1);
-    const TriangleKd tree = tree_of(soup);
+    const TriangleKd tree = kd_of(soup);
     const std::vector<Bounds3> leaves = tree.leaf_bounds();
     ASSERT_EQ(leaves.size(), tree.leaf_count());
     ASSERT_GT(leaves.size(), 300u);
@@ -129,7 +129,7 @@ bool reaches_inside(const Bounds3& triangle, const Bounds3& leaf, const Bounds3&
 TEST(TriangleKd, ALeafListsExactlyTheTrianglesWhoseBoxReachesInside) {
     for (const unsigned seed : {3u, 4u}) {
         const Soup soup = random_soup(400, seed == 3 ? 0.1f : 0.6f, seed);
-        const TriangleKd tree = tree_of(soup);
+        const TriangleKd tree = kd_of(soup);
         const std::vector<Bounds3> boxes = triangle_bounds(soup.vertices, soup.triangles),
                                    leaves = tree.leaf_bounds();
         for (std::uint32_t label = 0; label < leaves.size(); ++label) {
@@ -149,7 +149,7 @@ TEST(TriangleKd, TheLeafOfAPointOnATriangleListsTheTriangle) {
     ASSERT_TRUE(rc::check([] {
         const unsigned seed = *rc::gen::arbitrary<unsigned>();
         const Soup soup = random_soup(*rc::gen::inRange<std::size_t>(1, 200), 0.3f, seed);
-        const TriangleKd tree = tree_of(soup);
+        const TriangleKd tree = kd_of(soup);
         const std::vector<Bounds3> boxes = triangle_bounds(soup.vertices, soup.triangles);
         std::mt19937 random(seed);
         for (std::uint32_t t = 0; t < boxes.size(); ++t) {
@@ -164,7 +164,7 @@ TEST(TriangleKd, TheLeafOfAPointOnATriangleListsTheTriangle) {
 }
 
 TEST(TriangleKd, ConsecutiveLeavesAreNearEachOther) {
-    EXPECT_LT(neighbour_distance(tree_of(random_soup(4000, 0.02f, 5)).leaf_bounds()), 0.2);
+    EXPECT_LT(neighbour_distance(kd_of(random_soup(4000, 0.02f, 5)).leaf_bounds()), 0.2);
 }
 
 TEST(TriangleKd, AFlatTriangleInASplitPlaneLiesBelowIt) {
@@ -172,7 +172,7 @@ TEST(TriangleKd, AFlatTriangleInASplitPlaneLiesBelowIt) {
     soup.add_spanning({0, 0, 0}, {1, 1, 1});
     soup.add({1, 0, 0}, {1, 1, 0}, {1, 0, 1});
     soup.add_spanning({1, 0, 0}, {2, 1, 1});
-    const TriangleKd tree = tree_of(soup, {.traversal_cost = 1});
+    const TriangleKd tree = kd_of(soup, {.traversal_cost = 1});
     ASSERT_EQ(tree.leaf_count(), 2u);
     EXPECT_THAT(tree.triangles_of_leaf(0), ElementsAre(0, 1));
     EXPECT_THAT(tree.triangles_of_leaf(1), ElementsAre(2));
@@ -185,7 +185,7 @@ TEST(TriangleKd, AFlatTriangleInASplitPlaneLiesBelowIt) {
 TEST(TriangleKd, AFlatTriangleInAPlaneIsCountedBelowIt) {
     Soup soup;
     for (const float x : {0.0f, 0.5f, 4.0f, 6.0f}) soup.add({x, 0, 0}, {x, 1, 0}, {x, 1, 1});
-    const TriangleKd tree = tree_of(soup, {.max_depth = 1});
+    const TriangleKd tree = kd_of(soup, {.max_depth = 1});
     ASSERT_EQ(tree.leaf_count(), 2u);
     EXPECT_THAT(tree.triangles_of_leaf(0), ElementsAre(0, 1));
     EXPECT_THAT(tree.triangles_of_leaf(1), ElementsAre(2, 3));
@@ -203,7 +203,7 @@ TEST(TriangleKd, WithoutTrianglesEverythingLiesInTheOneLeaf) {
 TEST(TriangleKd, OneTriangleIsOneLeaf) {
     Soup soup;
     soup.add_spanning({0, 0, 0}, {1, 1, 1});
-    const TriangleKd tree = tree_of(soup);
+    const TriangleKd tree = kd_of(soup);
     EXPECT_EQ(tree.leaf_count(), 1u);
     EXPECT_THAT(tree.triangles_of_leaf(0), ElementsAre(0));
 }
@@ -211,7 +211,7 @@ TEST(TriangleKd, OneTriangleIsOneLeaf) {
 TEST(TriangleKd, DuplicatesCannotBeToldApartAndShareALeaf) {
     Soup soup;
     for (int i = 0; i < 1000; ++i) soup.add_spanning({0, 0, 0}, {1, 1, 1});
-    const TriangleKd tree = tree_of(soup);
+    const TriangleKd tree = kd_of(soup);
     EXPECT_EQ(tree.leaf_count(), 1u);
     EXPECT_EQ(tree.triangles_of_leaf(0).size(), 1000u);
 }
@@ -222,18 +222,18 @@ TEST(TriangleKd, TrianglesOfNoAreaAreKept) {
         points.add({1, 1, 1}, {1, 1, 1}, {1, 1, 1});
         line.add({float(i), 0, 0}, {float(i), 0, 0}, {float(i + 1), 0, 0});
     }
-    EXPECT_EQ(tree_of(points).stats().references, 100u);
-    EXPECT_EQ(tree_of(line).leaf_count(), 1u);
+    EXPECT_EQ(kd_of(points).stats().references, 100u);
+    EXPECT_EQ(kd_of(line).leaf_count(), 1u);
     Soup needles = random_soup(100, 0.1f, 6);
     for (TriangleIndices& triangle : needles.triangles) triangle[2] = triangle[1];
-    EXPECT_GE(tree_of(needles).stats().references, 100u);
+    EXPECT_GE(kd_of(needles).stats().references, 100u);
 }
 
 TEST(TriangleKd, ASceneInOnePlaneIsSplitInThePlane) {
     for (int axis = 0; axis < 3; ++axis) {
         Soup soup = random_soup(500, 0.05f, 7);
         for (Vec3& vertex : soup.vertices) vertex[axis] = 0.25f;
-        const TriangleKd tree = tree_of(soup);
+        const TriangleKd tree = kd_of(soup);
         EXPECT_GT(tree.leaf_count(), 200u);
         for (std::size_t v = 0; v < soup.vertices.size(); v += 10) {
             Vec3 lifted = soup.vertices[v];
@@ -248,14 +248,14 @@ TEST(TriangleKd, NoLeafIsDeeperThanAsked) {
     Soup soup;
     float size = 1;
     for (int i = 0; i < 64; ++i, size /= 3) soup.add_spanning({0, 0, 0}, {size, size, size});
-    EXPECT_EQ(tree_of(soup, {.max_depth = 5}).stats().depth, 5u);
-    EXPECT_EQ(tree_of(soup).stats().depth, 15u);  // 8 + 1.3 x log2(64), rounded down
+    EXPECT_EQ(kd_of(soup, {.max_depth = 5}).stats().depth, 5u);
+    EXPECT_EQ(kd_of(soup).stats().depth, 15u);  // 8 + 1.3 x log2(64), rounded down
 }
 
 TEST(TriangleKd, NodesOfTheLeafSizeAreNotSplit) {
     const Soup soup = four_in_a_row();
-    EXPECT_EQ(tree_of(soup, {.leaf_size = 4}).leaf_count(), 1u);
-    EXPECT_EQ(tree_of(soup, {.leaf_size = 3}).leaf_count(), 2u);
+    EXPECT_EQ(kd_of(soup, {.leaf_size = 4}).leaf_count(), 1u);
+    EXPECT_EQ(kd_of(soup, {.leaf_size = 3}).leaf_count(), 2u);
 }
 
 template <class Error, class Call>
@@ -271,30 +271,29 @@ void expect_refused(Call call, const char* message) {
 TEST(TriangleKd, RefusesBadTrianglesByNumber) {
     Soup soup = four_in_a_row();
     soup.triangles[2][1] = 12;
-    expect_refused<trace::DataError>([&] { tree_of(soup); },
+    expect_refused<trace::DataError>([&] { kd_of(soup); },
                                      "triangle 2: found vertex index 12, expected one under 12");
     soup = four_in_a_row();
     soup.vertices[10].y = nan;
     expect_refused<trace::DataError>(
-        [&] { tree_of(soup); }, "triangle 3: found nan in vertex 10, expected a number from -1e+18 to 1e+18");
+        [&] { kd_of(soup); }, "triangle 3: found nan in vertex 10, expected a number from -1e+18 to 1e+18");
     soup.vertices[10].y = -endless;
     expect_refused<trace::DataError>(
-        [&] { tree_of(soup); },
-        "triangle 3: found -inf in vertex 10, expected a number from -1e+18 to 1e+18");
+        [&] { kd_of(soup); }, "triangle 3: found -inf in vertex 10, expected a number from -1e+18 to 1e+18");
 }
 
 TEST(TriangleKd, RefusesAConfigOutOfRange) {
     const Soup soup = four_in_a_row();
-    EXPECT_THROW(tree_of(soup, {.max_depth = 65}), trace::UsageError);
-    EXPECT_THROW(tree_of(soup, {.traversal_cost = 0}), trace::UsageError);
-    EXPECT_THROW(tree_of(soup, {.intersection_cost = nan}), trace::UsageError);
-    EXPECT_THROW(tree_of(soup, {.empty_space_factor = 1.5f}), trace::UsageError);
+    EXPECT_THROW(kd_of(soup, {.max_depth = 65}), trace::UsageError);
+    EXPECT_THROW(kd_of(soup, {.traversal_cost = 0}), trace::UsageError);
+    EXPECT_THROW(kd_of(soup, {.intersection_cost = nan}), trace::UsageError);
+    EXPECT_THROW(kd_of(soup, {.empty_space_factor = 1.5f}), trace::UsageError);
 }
 
 TEST(TriangleKd, HugeScenesSplit) {
     Soup soup = random_soup(200, 0.1f, 9);
     for (Vec3& vertex : soup.vertices) vertex = vertex * 8e17f;
-    EXPECT_GT(tree_of(soup).leaf_count(), 100u);
+    EXPECT_GT(kd_of(soup).leaf_count(), 100u);
 }
 
 }  // namespace
