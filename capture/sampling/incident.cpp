@@ -42,7 +42,7 @@ private:
         }
         if (smooth_) {
             smooth(shares);
-            squares *= kept_by_smoothing;
+            squares *= kept_by_smoothing();
         }
         if (shrink_) shrink(shares, squares);
     }
@@ -58,6 +58,14 @@ private:
         if (!(unevenness > 0)) return;
         const double kept = std::max(0.0, 1 - noise / unevenness);
         for (float& share : shares) share = static_cast<float>(mean + kept * (share - mean));
+    }
+
+    /// What smooth() leaves of the sum of squares of independent cells: 1/2 and four times 1/8, squared;
+    /// where two of the parts fall into one cell, their sum.
+    double kept_by_smoothing() const {
+        const double rows = table().rows(), across = table().columns() == 2 ? 1.0 / 16 : 2.0 / 64;
+        const double inner = 1.0 / 4 + 2.0 / 64 + across, edge = 25.0 / 64 + 1.0 / 64 + across;
+        return rows == 1 ? 36.0 / 64 + across : (2 * edge + (rows - 2) * inner) / rows;
     }
 
     /// Half of each cell to its neighbours; a row has none beyond the pole or the horizon, and keeps that
@@ -84,9 +92,6 @@ private:
     bool smooth_, shrink_;
     std::vector<float> smoothed_;
     spatial::NearestSet found_;
-
-    /// Of the sum of squares of independent cells: 1/2 and four times 1/8, squared.
-    static constexpr double kept_by_smoothing = 0.3125;
 };
 
 void check(const trace::Parameters& given) {
