@@ -88,7 +88,9 @@ TEST_P(OnLayout, OptLiesBetweenTheFloorAndWhatIsMeasured) {
         EXPECT_LE(compulsory_bytes(touched_elements(walks), layout, cache.line_bytes),
                   opt * cache.line_bytes);
         EXPECT_LE(opt, found.caches[0].misses);
-        if (cache.ways > 1) EXPECT_LT(opt, found.caches[0].misses);
+        if (cache.ways > 1) {
+            EXPECT_LT(opt, found.caches[0].misses);
+        }
     }
 }
 
