@@ -32,8 +32,8 @@ PixelPaths::PixelPaths(const Scene& scene, const RayCaster& caster, const LightS
       parts_(parts),
       plane_(scene.camera, config.width, config.height),
       work_(work),
-      gather_strata_(parse_sampling(config.sampling).strata()),
-      distribution_(parse_sampling(config.sampling).make(parts_.guide)) {}
+      sampling_(parse_sampling(config.sampling)),
+      distribution_(sampling_.make(parts_.guide)) {}
 
 /// Eye ray sample_ of pixel_: what it sees, and the points to shade with their gather rays.
 void PixelPaths::follow_eye_ray(const Strata& strata) {
@@ -332,7 +332,7 @@ void PixelPaths::gather_hemisphere(const DiffusePoint& point, const HemisphereGr
 
 void PixelPaths::add_gather_rays(const Shaded& at, std::size_t number) {
     const std::uint32_t rays = at.gather_rays;
-    const Strata strata(rays, gather_strata_);
+    const Strata strata(rays, sampling_.strata());
     const bool glossy = at.material->kind == MaterialKind::glossy;
     // The strata are visited in a random sequence: the paper's naive order knows no coherence inside a pixel.
     Sampler shuffle(config_.seed, Stream::gather, stream_index(number));

@@ -96,7 +96,7 @@ private:
     std::array<Shaded, 2> shaded_{};  // one dielectric splits an eye path
     std::size_t shaded_points_ = 0;
     std::vector<std::uint32_t> sequence_;
-    const StrataShape gather_strata_;
+    const SamplingSpec sampling_;
     const std::unique_ptr<GatherDistribution> distribution_;  // looks at the point that is shaded
     View view_;
     spatial::ListWalkRecorder octree_walk_;

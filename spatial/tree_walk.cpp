@@ -21,21 +21,13 @@ WalkDecoder::Visits TreeWalkDecoder::decode(std::span<const std::uint8_t> walk) 
     if (padded_.size() < walk.size() + walk_padding) padded_.resize(2 * (walk.size() + walk_padding));
     std::memcpy(padded_.data(), walk.data(), walk.size());
     std::memset(padded_.data() + walk.size(), 0, walk_padding);
-    const std::uint8_t* const bytes = padded_.data();
     const std::uint32_t* const children = children_.data();
     const std::uint64_t total = 8 * walk.size();
 
-    // `bits` are the walk's from `position` on; `left` of them are to be relied on.
-    std::uint64_t position = 0, bits = bits_at(bytes, 0);
-    unsigned left = whole_bits;
+    WalkBits bits(padded_.data());
     const auto refill = [&] {
-        bits = bits_at(bytes, position);
-        left = whole_bits;
-        return position <= total;
-    };
-    const auto take = [&](unsigned taken) {
-        position += taken;
-        left -= taken;
+        bits.refill();
+        return bits.position <= total;
     };
     std::size_t count = 0, depth = 0;
     std::uint32_t node = 0;
@@ -44,45 +36,42 @@ WalkDecoder::Visits TreeWalkDecoder::decode(std::span<const std::uint8_t> walk) 
         // has two leaves its far bit is taken with them, without a branch that depends on it.
         std::uint64_t two_leaves = 0;
         while (node < inner_) {
-            if (left < 32 && !refill()) return {WalkFault::ends_early, {visited_.data(), count}};
+            if (bits.left < 32 && !refill()) return {WalkFault::ends_early, {visited_.data(), count}};
             if (visited_.size() < count + whole_bits + 2) visited_.resize(2 * visited_.size());
             if (undecided_.size() < depth + whole_bits) undecided_.resize(2 * undecided_.size());
             std::uint32_t *const to = visited_.data() + count, *const undecided = undecided_.data() + depth;
             unsigned steps = 0;
             do {
-                const std::uint64_t upper = bits >> 63;
+                const std::uint64_t upper = bits.word >> 63;
                 to[steps] = node;
                 const std::uint32_t far = children[2 * std::uint64_t{node} + (upper ^ 1)];
                 undecided[steps] = far;
                 two_leaves = far >= inner_;
                 node = children[2 * std::uint64_t{node} + upper];
-                bits <<= 1;
+                bits.word <<= 1;
                 ++steps;
-            } while (node < inner_ && steps < left - 1);
+            } while (node < inner_ && steps < bits.left - 1);
             count += steps;
             depth += steps;
-            take(steps);
+            bits.count(steps);
         }
         if (visited_.size() < count + 2) visited_.resize(2 * visited_.size());
         visited_[count] = node;
         visited_[count + 1] = undecided_[depth - two_leaves];
-        count += 1 + (two_leaves & bits >> 63);
+        count += 1 + (two_leaves & bits.word >> 63);
         depth -= two_leaves;
-        bits <<= two_leaves;
-        take(static_cast<unsigned>(two_leaves));
+        bits.take(static_cast<unsigned>(two_leaves));
         // Far bits: a zero drops the deepest undecided child, a one enters it.
         bool entered = false;
         while (!entered && depth > 0) {
-            const auto zeros = static_cast<unsigned>(
-                std::min<std::size_t>({static_cast<std::size_t>(std::countl_zero(bits)), left, depth}));
+            const auto zeros = static_cast<unsigned>(std::min<std::size_t>(
+                {static_cast<std::size_t>(std::countl_zero(bits.word)), bits.left, depth}));
             depth -= zeros;
-            bits <<= zeros;
-            take(zeros);
+            bits.take(zeros);
             if (depth == 0) break;
-            if (left > 0) {
+            if (bits.left > 0) {
                 node = undecided_[--depth];
-                bits <<= 1;
-                take(1);
+                bits.take(1);
                 entered = true;
             } else if (!refill()) {
                 return {WalkFault::ends_early, {visited_.data(), count}};
@@ -90,8 +79,8 @@ WalkDecoder::Visits TreeWalkDecoder::decode(std::span<const std::uint8_t> walk) 
         }
         if (!entered) break;
     }
-    if (position > total) return {WalkFault::ends_early, {visited_.data(), count}};
-    walk_bytes_ = std::max<std::uint64_t>(1, (position + 7) / 8);
+    if (bits.position > total) return {WalkFault::ends_early, {visited_.data(), count}};
+    walk_bytes_ = std::max<std::uint64_t>(1, (bits.position + 7) / 8);
     if (walk_bytes_ < walk.size()) return {WalkFault::bytes_left_over, {visited_.data(), count}};
     return {WalkFault::none, {visited_.data(), count}};
 }

@@ -17,4 +17,28 @@ inline std::uint64_t bits_at(const std::uint8_t* bytes, std::uint64_t position) 
     return __builtin_bswap64(word) << (position % 8);
 }
 
+/// The front of a walk, some bits at a time, at the top of a word. `bytes` has walk_padding behind its end.
+struct WalkBits {
+    explicit WalkBits(const std::uint8_t* from) : bytes(from), word(bits_at(from, 0)) {}
+
+    void refill() {
+        word = bits_at(bytes, position);
+        left = whole_bits;
+    }
+    /// What has been shifted out of the word.
+    void count(unsigned bits) {
+        position += bits;
+        left -= bits;
+    }
+    void take(unsigned bits) {
+        word <<= bits;
+        count(bits);
+    }
+
+    const std::uint8_t* bytes;
+    std::uint64_t position = 0;  ///< Of the word's first bit.
+    std::uint64_t word;
+    unsigned left = whole_bits;  ///< Bits of the word to be relied on; the others are not to be read.
+};
+
 }  // namespace regather::spatial

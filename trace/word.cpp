@@ -1,7 +1,12 @@
 #include "trace/word.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
+
+#include "trace/error.h"
+#include "trace/text.h"
 
 namespace regather::trace {
 
@@ -54,6 +59,16 @@ std::string listed(std::span<const std::string_view> words) {
     std::string text;
     for (const std::string_view word : words) text += (text.empty() ? "" : ", ") + std::string(word);
     return text;
+}
+
+NamedSpec named_spec(std::string_view what, std::string_view spec, std::span<const std::string_view> names) {
+    const std::size_t colon = std::min(spec.find(':'), spec.size());
+    const std::string_view name = spec.substr(0, colon);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+        throw UsageError(fmt::format("{}: unknown {}; nearest: {}; known: {}", what, in_quotes(name),
+                                     nearest_words(name, names).front(), listed(names)));
+    return {static_cast<std::size_t>(found - names.begin()), spec.substr(std::min(colon + 1, spec.size()))};
 }
 
 }  // namespace regather::trace

@@ -23,4 +23,20 @@ std::string_view article(std::string_view word);
 /// `a, b, c`.
 std::string listed(std::span<const std::string_view> words);
 
+/// A spec, NAME or NAME:PARAMETERS.
+struct NamedSpec {
+    std::size_t which;            ///< Of the names.
+    std::string_view parameters;  ///< Behind the colon; of the spec's text.
+};
+/// Throws UsageError for another name than `names` (of a `what`: "structure"), names the nearest and lists
+/// all.
+NamedSpec named_spec(std::string_view what, std::string_view spec, std::span<const std::string_view> names);
+/// Of the names of a table's rows.
+template <class Row>
+NamedSpec named_spec(std::string_view what, std::string_view spec, std::span<const Row> table) {
+    std::vector<std::string_view> names;
+    for (const Row& row : table) names.push_back(row.name);
+    return named_spec(what, spec, std::span<const std::string_view>(names));
+}
+
 }  // namespace regather::trace

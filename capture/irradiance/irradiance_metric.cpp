@@ -125,17 +125,9 @@ std::span<const IrradianceMetric> irradiance_metrics() {
 }
 
 IrradianceCacheSpec parse_irradiance_cache(std::string_view spec) {
-    const std::size_t colon = std::min(spec.find(':'), spec.size());
-    const std::string_view name = spec.substr(0, colon);
-    std::vector<std::string_view> names;
-    for (const IrradianceMetric& metric : metric_table()) names.push_back(metric.name);
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end())
-        throw trace::UsageError(fmt::format("irradiance cache: unknown {}; nearest: {}; known: {}",
-                                            trace::in_quotes(name), trace::nearest_words(name, names).front(),
-                                            trace::listed(names)));
-    const IrradianceMetric& metric = metric_table()[static_cast<std::size_t>(found - names.begin())];
-    trace::Parameters given(metric.name, metric.parameters, spec.substr(std::min(colon + 1, spec.size())));
+    const auto [which, behind] = trace::named_spec("irradiance cache", spec, metric_table());
+    const IrradianceMetric& metric = metric_table()[which];
+    trace::Parameters given(metric.name, metric.parameters, behind);
     const auto require = [&](const char* parameter, std::uint32_t low, std::uint32_t high) {
         trace::require_range(metric.name, parameter, given.count(parameter), low, high);
     };

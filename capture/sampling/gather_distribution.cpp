@@ -9,9 +9,7 @@
 #include "capture/sampling/incident.h"
 #include "capture/sampling/mixture.h"
 #include "capture/sampling/oracle.h"
-#include "trace/error.h"
 #include "trace/range.h"
-#include "trace/text.h"
 #include "trace/word.h"
 
 namespace regather::capture {
@@ -128,18 +126,9 @@ StrataShape SamplingSpec::strata() const {
 }
 
 SamplingSpec parse_sampling(std::string_view spec) {
-    const std::size_t colon = std::min(spec.find(':'), spec.size());
-    const std::string_view name = spec.substr(0, colon);
-    std::vector<std::string_view> names;
-    for (const SamplingStrategy& strategy : table()) names.push_back(strategy.name);
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end())
-        throw trace::UsageError(fmt::format("sampling: unknown {}; nearest: {}; known: {}",
-                                            trace::in_quotes(name), trace::nearest_words(name, names).front(),
-                                            trace::listed(names)));
-    const SamplingStrategy& strategy = table()[static_cast<std::size_t>(found - names.begin())];
-    trace::Parameters parameters(strategy.name, strategy.parameters,
-                                 spec.substr(std::min(colon + 1, spec.size())));
+    const auto [which, behind] = trace::named_spec("sampling", spec, table());
+    const SamplingStrategy& strategy = table()[which];
+    trace::Parameters parameters(strategy.name, strategy.parameters, behind);
     if (parameters.knows("even")) trace::require_range(strategy.name, "even", parameters.count("even"), 0, 1);
     const std::string given = parameters.text();
     return {&strategy, std::move(parameters),

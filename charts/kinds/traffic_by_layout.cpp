@@ -61,12 +61,12 @@ Chart traffic_by_layout(const ChartKind& kind, const results::Rows& rows, const 
     std::set<std::string> in_legend;
     const auto once = [&](const std::string& label) { return in_legend.insert(label).second ? label : ""; };
     // A structure may lack some orderings: a mark is of one label everywhere.
-    std::map<std::string, std::set<std::string>> labels_of;
-    std::map<std::string, int> variants;
+    std::map<std::string, std::vector<std::string>> labels_of;  // by colour, as they come
     const auto tell_apart = [&](Curve& curve) {
-        std::set<std::string>& alike = labels_of[curve.colour];
-        if (alike.insert(curve.label).second) variants[curve.label] = static_cast<int>(alike.size()) - 1;
-        curve.variant = variants[curve.label];
+        std::vector<std::string>& alike = labels_of[curve.colour];
+        const auto place = std::find(alike.begin(), alike.end(), curve.label);
+        curve.variant = static_cast<int>(place - alike.begin());
+        if (place == alike.end()) alike.push_back(curve.label);
     };
     for (std::size_t p = 0; p < places.size(); ++p) {
         const double base = static_cast<double>(places.size() - 1 - p), height = base + marks_at;

@@ -237,17 +237,9 @@ std::span<const StructureEntry> structures() {
 }
 
 StructureSpec parse_structure(std::string_view spec) {
-    const std::size_t colon = std::min(spec.find(':'), spec.size());
-    const std::string_view name = spec.substr(0, colon);
-    std::vector<std::string_view> names;
-    for (const StructureEntry& entry : table) names.push_back(entry.name);
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end())
-        throw trace::UsageError(fmt::format("structure: unknown {}; nearest: {}; known: {}",
-                                            trace::in_quotes(name), trace::nearest_words(name, names).front(),
-                                            trace::listed(names)));
-    const StructureEntry& entry = table[found - names.begin()];
-    trace::Parameters parameters(entry.name, entry.parameters, spec.substr(std::min(colon + 1, spec.size())));
+    const auto [which, behind] = trace::named_spec("structure", spec, structures());
+    const StructureEntry& entry = table[which];
+    trace::Parameters parameters(entry.name, entry.parameters, behind);
     std::string text(entry.name);
     for (const trace::Parameter& parameter : entry.parameters) {
         const std::uint32_t value = parameters.count(parameter.name);

@@ -86,17 +86,10 @@ bool is_ray_structure(std::string_view spec) {
 }
 
 RayStructureSpec parse_ray_structure(std::string_view spec) {
-    const std::string_view name = name_of(spec);
-    std::vector<std::string_view> names;
-    for (const RayStructureEntry& entry : table) names.push_back(entry.name);
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end())
-        throw trace::UsageError(fmt::format("structure of rays: unknown {}; nearest: {}; known: {}",
-                                            trace::in_quotes(name), trace::nearest_words(name, names).front(),
-                                            trace::listed(names)));
-    const RayStructureEntry& entry = table[found - names.begin()];
-    const trace::Parameters given(entry.name, entry.parameters,
-                                  spec.substr(std::min(name.size() + 1, spec.size())));
+    const auto [which, behind] =
+        trace::named_spec("structure of rays", spec, std::span<const RayStructureEntry>(table));
+    const RayStructureEntry& entry = table[which];
+    const trace::Parameters given(entry.name, entry.parameters, behind);
     RayStructureSpec parsed{
         &entry, {.node_width = entry.width}, given.given_count("stack"), std::string(entry.name)};
     const auto tell = [&](std::string_view parameter, std::uint32_t value) {

@@ -46,38 +46,26 @@ public:
         if (padded_.size() < walk.size() + walk_padding) padded_.resize(2 * (walk.size() + walk_padding));
         std::memcpy(padded_.data(), walk.data(), walk.size());
         std::memset(padded_.data() + walk.size(), 0, walk_padding);
-        const std::uint8_t* const bytes = padded_.data();
         const std::uint64_t total = 8 * walk.size();
 
-        // `bits` are the walk's from `position` on; `left` of them are to be relied on.
-        std::uint64_t position = 0, bits = bits_at(bytes, 0);
-        unsigned left = whole_bits;
-        const auto refill = [&] {
-            bits = bits_at(bytes, position);
-            left = whole_bits;
-        };
-        const auto take_bits = [&](unsigned taken) {
-            bits <<= taken;
-            position += taken;
-            left -= taken;
-        };
+        WalkBits bits(padded_.data());
         std::size_t depth = 0;
         std::uint32_t element = 0;
         for (;;) {
-            if (position > total) return told(WalkFault::ends_early);
+            if (bits.position > total) return told(WalkFault::ends_early);
             if (visited_.size() < count_ + step) visited_.resize(2 * visited_.size());
             visited_[count_++] = element;
             if (element < inner_) {
-                if (left < 2 * slot_bits + 1) refill();
-                const std::uint64_t entered = bits >> (63 - slot_bits);
-                take_bits(slot_bits + 1);
+                if (bits.left < 2 * slot_bits + 1) bits.refill();
+                const std::uint64_t entered = bits.word >> (63 - slot_bits);
+                bits.take(slot_bits + 1);
                 if (entered > 0) {
                     const std::uint32_t* const row = children_ + (std::uint64_t{element} << slot_bits);
-                    const auto slot = static_cast<unsigned>(bits >> (64 - slot_bits));
-                    take_bits(slot_bits);
+                    const auto slot = static_cast<unsigned>(bits.word >> (64 - slot_bits));
+                    bits.take(slot_bits);
                     if (entered > 1u << slot_bits || row[entered - 1] == 0 || row[slot] == 0)
-                        return told(position > total ? WalkFault::ends_early
-                                                     : WalkFault::enters_missing_child);
+                        return told(bits.position > total ? WalkFault::ends_early
+                                                          : WalkFault::enters_missing_child);
                     if (entered > 1) {
                         waiting_[depth++] = Waiting(element, entered - 1, slot);
                         put_aside(entered - 1);
@@ -89,23 +77,24 @@ public:
             // The deepest node whose children wait: a zero drops them, a one and a slot goes to one.
             bool gone = false;
             while (!gone && depth > 0) {
-                if (position > total) return told(WalkFault::ends_early);
-                const auto zeros = static_cast<unsigned>(
-                    std::min<std::size_t>({static_cast<std::size_t>(std::countl_zero(bits)), left, depth}));
+                if (bits.position > total) return told(WalkFault::ends_early);
+                const auto zeros = static_cast<unsigned>(std::min<std::size_t>(
+                    {static_cast<std::size_t>(std::countl_zero(bits.word)), bits.left, depth}));
                 for (std::size_t z = 0; spills && z < zeros; ++z) drop(waiting_[depth - 1 - z].left());
                 depth -= zeros;
-                take_bits(zeros);
+                bits.take(zeros);
                 if (depth == 0) break;
-                if (left < 1 + slot_bits) {
-                    refill();
+                if (bits.left < 1 + slot_bits) {
+                    bits.refill();
                     continue;
                 }
                 Waiting& at = waiting_[depth - 1];
-                const auto slot = static_cast<unsigned>(bits << 1 >> (64 - slot_bits));
-                take_bits(1 + slot_bits);
+                const auto slot = static_cast<unsigned>(bits.word << 1 >> (64 - slot_bits));
+                bits.take(1 + slot_bits);
                 element = children_[(std::uint64_t{at.node()} << slot_bits) + slot];
                 if (element == 0 || at.has_gone_to(slot))
-                    return told(position > total ? WalkFault::ends_early : WalkFault::enters_missing_child);
+                    return told(bits.position > total ? WalkFault::ends_early
+                                                      : WalkFault::enters_missing_child);
                 if constexpr (spills) take();
                 if (at.left() == 1)
                     --depth;
@@ -115,8 +104,8 @@ public:
             }
             if (!gone) break;
         }
-        if (position > total) return told(WalkFault::ends_early);
-        walk_bytes_ = std::max<std::uint64_t>(1, (position + 7) / 8);
+        if (bits.position > total) return told(WalkFault::ends_early);
+        walk_bytes_ = std::max<std::uint64_t>(1, (bits.position + 7) / 8);
         return told(walk_bytes_ < walk.size() ? WalkFault::bytes_left_over : WalkFault::none);
     }
 
