@@ -17,6 +17,7 @@ Chart net_benefit(const ChartKind& kind, const results::Rows& rows, const ChartO
 Chart best_under_budget(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart traffic_by_frame(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart traffic_by_layout(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
+Chart traffic_by_technique(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 // Rows by region and depth, by slice of the run, of sampled runs.
 Chart traffic_by_depth(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart timeline(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
@@ -26,6 +27,7 @@ Chart frame_traffic(const ChartKind& kind, const results::Rows& rows, const Char
 // Settings of the renderer.
 Chart error_by_time(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart error_by_render_time(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
+Chart time_to_error(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart efficiency(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart bias_by_photons(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);
 Chart bias_by_k(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options);

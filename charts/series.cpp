@@ -46,12 +46,14 @@ constexpr Style known[] = {
 constexpr std::string_view spare_colours[] = {"#6699cc", "#999933", "#ddcc77", "#888888"};
 
 /// What, besides ordering, tile and bins, tells two curves apart.
-constexpr std::size_t trait_count = 7;
+constexpr std::size_t trait_count = 9;
 using Traits = std::array<std::string, trait_count>;
 
 Traits traits_of(const results::Row& row, bool merge_frames) {
     return {row.scene,
             row.frame && !merge_frames ? fmt::format("frame {}", *row.frame) : "",
+            row.sampling,
+            row.irradiance_cache,
             row.structure,
             row.layout,
             row.policy,

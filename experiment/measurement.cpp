@@ -20,6 +20,12 @@ replay::ReplayConfig replay_config(std::span<const cachesim::CacheConfig> caches
     return {{caches.begin(), caches.end()}, method.classes, method.several_orders};
 }
 
+/// Empty where the capture does not tell.
+std::string text_parameter(const trace::TraceInfo& info, std::string_view key) {
+    const trace::Json* const value = info.parameters.find(key);
+    return value && value->text() ? *value->text() : "";
+}
+
 }  // namespace
 
 Orderings parse_orderings(std::span<const std::string> specs) {
@@ -124,6 +130,8 @@ results::Row Measurement::row(const reorder::ParsedOrdering& parsed, const reord
     results::Row row;
     row.scene = trace_.info().scene;
     if (trace_.info().frame) row.frame = *trace_.info().frame;
+    row.sampling = text_parameter(trace_.info(), "sampling");
+    row.irradiance_cache = text_parameter(trace_.info(), "irradiance_cache");
     row.ordering = spec.name;
     if (spec.tile) row.tile = *spec.tile;
     if (spec.bins) row.bins = *spec.bins;

@@ -12,8 +12,9 @@ namespace {
 
 bool comparable(const Row& a, const Row& b) {
     const auto key = [](const Row& row) {
-        return std::tie(row.scene, row.frame, row.structure, row.layout, row.policy, row.cache_bytes,
-                        row.line_bytes, row.ways, row.onchip_bytes, row.set_sampling);
+        return std::tie(row.scene, row.frame, row.sampling, row.irradiance_cache, row.structure, row.layout,
+                        row.policy, row.cache_bytes, row.line_bytes, row.ways, row.onchip_bytes,
+                        row.set_sampling);
     };
     return key(a) == key(b);
 }

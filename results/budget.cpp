@@ -47,7 +47,8 @@ std::vector<Row> rows_of_shape(std::span<const Row> rows, std::optional<Geometry
 
 bool of_one_setting(std::span<const Row> rows) {
     const auto setting = [](const Row& row) {
-        return std::tie(row.scene, row.frame, row.structure, row.layout, row.policy);
+        return std::tie(row.scene, row.frame, row.sampling, row.irradiance_cache, row.structure, row.layout,
+                        row.policy);
     };
     return std::all_of(rows.begin(), rows.end(),
                        [&](const Row& row) { return setting(row) == setting(rows.front()); });

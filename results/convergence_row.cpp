@@ -15,6 +15,8 @@ constexpr Column convergence_columns[] = {
     column<&ConvergenceRow::caustic_photons, ConvergenceRow>("caustic_photons"),
     column<&ConvergenceRow::samples, ConvergenceRow>("samples"),
     column<&ConvergenceRow::sampling, ConvergenceRow>("sampling"),
+    column<&ConvergenceRow::irradiance_cache, ConvergenceRow>("irradiance_cache"),
+    column<&ConvergenceRow::photon_seed, ConvergenceRow>("photon_seed"),
     column<&ConvergenceRow::shadow_rays>("shadow_rays"),
     column<&ConvergenceRow::width>("width"),
     column<&ConvergenceRow::height>("height"),
@@ -32,6 +34,9 @@ constexpr Column convergence_columns[] = {
     column<&ConvergenceRow::ldr_flip>("ldr_flip"),
     column<&ConvergenceRow::hdr_flip>("hdr_flip"),
     column<&ConvergenceRow::variance>("variance"),
+    column<&ConvergenceRow::variance_stderr>("variance_stderr"),
+    column<&ConvergenceRow::indirect_variance>("indirect_variance"),
+    column<&ConvergenceRow::indirect_variance_stderr>("indirect_variance_stderr"),
     column<&ConvergenceRow::bias_squared>("bias_squared", Form::signed_real),
     column<&ConvergenceRow::bias_squared_stderr>("bias_squared_stderr"),
     column<&ConvergenceRow::interior_variance>("interior_variance"),
@@ -56,6 +61,8 @@ constexpr Column ladder_columns[] = {
     column<&LadderRow::caustic_photons>("caustic_photons"),
     column<&LadderRow::samples>("samples"),
     column<&LadderRow::sampling>("sampling"),
+    column<&LadderRow::irradiance_cache>("irradiance_cache"),
+    column<&LadderRow::photon_seed>("photon_seed"),
 };
 
 }  // namespace

@@ -16,7 +16,9 @@ struct LadderRow {
     Count gather_rays, photons, k;
     Number radius;  ///< Maximum radius of a gather [scene units]; empty: none.
     Count caustic_photons, samples;
-    std::string sampling;  ///< Of gather rays: a strategy's spec.
+    std::string sampling;          ///< Of gather rays: a strategy's spec.
+    std::string irradiance_cache;  ///< A metric's spec; empty: none.
+    Count photon_seed;             ///< All images have photons of this seed; empty: each its own.
 };
 
 struct ConvergenceRow : LadderRow {
@@ -32,8 +34,10 @@ struct ConvergenceRow : LadderRow {
     Number rmse;           ///< [W / (m^2 sr)] The reference's own error is taken off.
     Flag below_reference;  ///< `rmse` is not told apart from the reference's error, which stands there.
     Number rel_mse, rel_mse_trimmed, mape, ldr_flip,
-        hdr_flip;         ///< As measured: with the reference's error in them.
-    Number variance;      ///< Mean over pixels and channels [(W / (m^2 sr))^2].
+        hdr_flip;     ///< As measured: with the reference's error in them.
+    Number variance;  ///< Mean over pixels and channels [(W / (m^2 sr))^2].
+    Number variance_stderr;
+    Number indirect_variance, indirect_variance_stderr;  ///< Of what gather rays bring alone.
     Number bias_squared;  ///< Estimate without bias of its own: around 0 it may be negative.
     Number bias_squared_stderr;
     Number interior_variance, interior_bias_squared,

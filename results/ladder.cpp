@@ -31,7 +31,21 @@ std::string setting_text(const ConvergenceRow& row) {
     if (row.radius) out += fmt::format(", r {:.3g}", *row.radius);
     if (row.samples.value_or(1) > 1) out += fmt::format(", s {}", *row.samples);
     if (!row.sampling.empty()) out += fmt::format(", {}", row.sampling.substr(0, row.sampling.find(':')));
+    if (!row.irradiance_cache.empty())
+        out += fmt::format(", {}", row.irradiance_cache.substr(0, row.irradiance_cache.find(':')));
     return out;
+}
+
+/// All that two rows must have in common for their variances to tell how many rays one needs for each of the
+/// other's; the strategy is what they differ by.
+auto all_but_sampling(const ConvergenceRow& row) {
+    return std::tie(row.scene, row.reference, row.width, row.height, row.seeds, row.mode, row.gather_rays,
+                    row.photons, row.k, row.radius, row.caustic_photons, row.samples, row.shadow_rays,
+                    row.irradiance_cache, row.photon_seed);
+}
+
+bool is_cosine(const ConvergenceRow& row) {
+    return row.sampling.substr(0, row.sampling.find(':')) == "cosine";
 }
 
 }  // namespace
@@ -160,6 +174,39 @@ Table time_table(std::span<const ConvergenceRow> rows) {
                                            : fmt::format("{:.3g}", *seconds));
         }
         out.add(std::move(cells));
+    }
+    return out;
+}
+
+std::vector<EqualError> equal_errors(std::span<const ConvergenceRow> rows) {
+    std::vector<EqualError> out;
+    for (const ConvergenceRow& row : rows) {
+        if (is_cosine(row) || !row.photon_seed || row.indirect_variance.value_or(0) <= 0) continue;
+        const auto cosine = std::find_if(rows.begin(), rows.end(), [&](const ConvergenceRow& other) {
+            return is_cosine(other) && all_but_sampling(other) == all_but_sampling(row) &&
+                   other.indirect_variance.value_or(0) > 0;
+        });
+        if (cosine == rows.end()) continue;
+        EqualError found{&row, *cosine->indirect_variance / *row.indirect_variance};
+        if (cosine->indirect_variance_stderr && row.indirect_variance_stderr) {
+            const double reach =
+                1.96 * std::hypot(*cosine->indirect_variance_stderr / *cosine->indirect_variance,
+                                  *row.indirect_variance_stderr / *row.indirect_variance);
+            found.interval = {found.rays * std::exp(-reach), found.rays * std::exp(reach)};
+        }
+        out.push_back(found);
+    }
+    return out;
+}
+
+Table equal_error_table(std::span<const ConvergenceRow> rows) {
+    Table out({{"rays of cosine for the error of one", Align::left}, {"N"}, {"rays"}, {"95 %"}});
+    for (const EqualError& found : equal_errors(rows)) {
+        const ConvergenceRow& row = *found.row;
+        const auto& interval = found.interval;
+        out.add({row.sampling.empty() ? "brdf" : row.sampling, fmt::to_string(row.gather_rays.value_or(0)),
+                 fmt::format("{:.2f}", found.rays),
+                 interval ? fmt::format("{:.2f} to {:.2f}", interval->first, interval->second) : ""});
     }
     return out;
 }

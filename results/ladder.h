@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "results/convergence_row.h"
@@ -29,6 +30,23 @@ std::optional<double> fitted_slope(std::span<const double> x, std::span<const do
 /// logarithms. Nothing when no setting, or only one flagged below_reference, is as good; below 0: the
 /// quickest setting is good enough and the seconds are at most that much.
 std::optional<double> seconds_to(const Ladder& ladder, double error);
+
+/// How many gather rays `cosine` needs for each of a strategy's, for the same error of what gather rays
+/// bring.
+struct EqualError {
+    const ConvergenceRow* row = nullptr;                ///< Of the strategy.
+    double rays = 0;                                    ///< Variance of cosine over that of the strategy.
+    std::optional<std::pair<double, double>> interval;  ///< 95 %; from three images on.
+};
+
+/// Of each row with a photon_seed (its images differ by gather rays alone) beside which there is one of the
+/// strategy cosine, all else being equal; in the order of rows, which must outlive it. Variance falls with
+/// the number of rays at least as 1 / N, so where strata make it fall faster the rays are fewer. The interval
+/// takes the logarithm of each variance to be normal with the jackknife's standard error, and both to be
+/// independent.
+std::vector<EqualError> equal_errors(std::span<const ConvergenceRow> rows);
+/// A line for each; no lines without rows.
+Table equal_error_table(std::span<const ConvergenceRow> rows);
 
 /// `value` over the mean radiance of the row's reference [%]; `value` itself where that is not known.
 double percent_of_mean(const ConvergenceRow& row, double value);

@@ -6,6 +6,8 @@ namespace {
 constexpr Column measurement_columns[] = {
     column<&Row::scene>("scene"),
     column<&Row::frame>("frame"),
+    column<&Row::sampling>("sampling"),
+    column<&Row::irradiance_cache>("irradiance_cache"),
     column<&Row::ordering>("ordering", Form::name, needed),
     column<&Row::tile>("tile"),
     column<&Row::bins>("bins"),

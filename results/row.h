@@ -13,6 +13,9 @@ struct Row {
 
     std::string scene;
     Count frame;
+    /// Of the capture: how gather rays were chosen and which cache of irradiance served points, as specs with
+    /// all parameters; empty: the default, none.
+    std::string sampling, irradiance_cache;
     std::string ordering;    ///< "hilbert"; whole image when tile is empty.
     Count tile;              ///< Edge of a square tile [pixels].
     Count bins;              ///< Direction bins or strata along one axis of an n x n grid.

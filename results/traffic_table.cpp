@@ -30,6 +30,8 @@ const Table::Head heads[] = {{"ordering", Align::left, {.most = 30}},
 std::string heading(const Row& row) {
     std::vector<std::string> parts = {row.scene};
     if (row.frame) parts.push_back(fmt::format("frame {}", *row.frame));
+    for (const auto& text : {row.sampling, row.irradiance_cache})
+        if (!text.empty()) parts.push_back(text);
     if (row.queries)
         parts.push_back(fmt::format("{} queries", decimal_count(static_cast<double>(*row.queries))));
     if (const auto geometry = geometry_of(row)) parts.push_back(geometry_text(*geometry));

@@ -63,11 +63,12 @@ capture::CaptureConfig capture_config(const Setting& setting, const ConvergenceC
     out.pixels.shadow_rays = config.shadow_rays;
     out.pixels.samples = setting.samples;
     if (!setting.sampling.empty()) out.pixels.sampling = setting.sampling;
+    out.pixels.irradiance_cache = setting.irradiance_cache;
     out.pixels.jitter = true;
     out.pixels.visualisation = setting.mode;
     out.pixels.seed = seed;
     out.photon.photons = setting.photons;
-    out.photon.seed = seed;
+    out.photon.seed = setting.photon_seed.value_or(seed);
     out.gather.k = setting.k;
     out.gather.radius = static_cast<float>(setting.radius);
     out.caustic.photons = setting.caustic_photons;
@@ -133,6 +134,8 @@ void Convergence::describe(results::ConvergenceRow& row, const Setting& setting)
     row.caustic_photons = setting.caustic_photons;
     row.samples = setting.samples;
     row.sampling = setting.sampling;
+    row.irradiance_cache = setting.irradiance_cache;
+    row.photon_seed = setting.photon_seed;
     row.shadow_rays = config_.shadow_rays;
     row.width = config_.width;
     row.height = config_.height;
@@ -154,7 +157,7 @@ bool Convergence::holds(const results::ConvergenceRow& row, const Setting& setti
     describe(own, setting);
     const auto key = [](const results::ConvergenceRow& r) {
         return std::tie(r.ladder, r.mode, r.gather_rays, r.photons, r.k, r.radius, r.caustic_photons,
-                        r.samples, r.sampling);
+                        r.samples, r.sampling, r.irradiance_cache, r.photon_seed);
     };
     return row.total_seconds && row.rmse && belongs(row) && key(row) == key(own);
 }
@@ -163,7 +166,7 @@ Measured Convergence::measure(const Setting& setting, const std::function<void(s
     Measured out;
     results::ConvergenceRow& row = out.row;
     describe(row, setting);
-    std::vector<capture::Image> images;
+    std::vector<capture::Image> images, indirect;
     double render = 0, photon = 0, tree = 0, rel_mse = 0, trimmed = 0, mape = 0, ldr = 0, hdr = 0;
     std::uint64_t nonfinite = 0;
     const float exposure = capture::middle_exposure(truth_.mean);
@@ -183,6 +186,7 @@ Measured Convergence::measure(const Setting& setting, const std::function<void(s
         ldr += share * capture::mean_flip(capture::ldr_flip(view(captured.image, exposure), shown));
         hdr += share * capture::mean_flip(capture::hdr_flip(captured.image, truth_.mean));
         images.push_back(captured.image);
+        indirect.push_back(captured.layers[capture::Layer::indirect]);
         if (told) told(seed + 1);
     }
     row.render_seconds = render;
@@ -203,6 +207,12 @@ Measured Convergence::measure(const Setting& setting, const std::function<void(s
     row.below_reference = all.squared_error <= all.reference_variance;
     row.rmse = std::sqrt(std::max(all.squared_error, all.reference_variance));
     row.variance = all.variance;
+    row.variance_stderr = all.variance_stderr;
+    if (setting.mode == capture::Visualisation::final_gather && setting.gather_rays > 0) {
+        const ErrorParts gathered = error_parts(indirect, {truth_.mean, {}, 0}, counted_);
+        row.indirect_variance = gathered.variance;
+        row.indirect_variance_stderr = gathered.variance_stderr;
+    }
     row.bias_squared = all.bias_squared;
     row.bias_squared_stderr = all.bias_squared_stderr;
     if (all.variance.value_or(0) > 0 && *row.total_seconds > 0)

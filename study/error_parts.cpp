@@ -18,6 +18,15 @@ double mean_of_pairs(const std::vector<std::vector<double>>& products, std::size
     return sum / static_cast<double>(pairs);
 }
 
+/// Standard error of an estimate from its values without one image each.
+double jackknife(const std::vector<double>& left) {
+    const auto count = static_cast<double>(left.size());
+    double middle = 0, squares = 0;
+    for (const double value : left) middle += value / count;
+    for (const double value : left) squares += (value - middle) * (value - middle);
+    return std::sqrt(squares * (count - 1) / count);
+}
+
 }  // namespace
 
 ErrorParts error_parts(std::span<const capture::Image> images, const Truth& truth,
@@ -51,16 +60,14 @@ ErrorParts error_parts(std::span<const capture::Image> images, const Truth& trut
     out.variance = own - pairs;
     out.bias_squared = pairs - out.reference_variance;
     if (count < 3) return out;
-    std::vector<double> left(count);
-    double middle = 0;
+    std::vector<double> bias(count), variance(count);
     for (std::size_t m = 0; m < count; ++m) {
-        left[m] = mean_of_pairs(products, m);
-        middle += left[m] / static_cast<double>(count);
+        bias[m] = mean_of_pairs(products, m);
+        const auto others = static_cast<double>(count - 1);
+        variance[m] = (own * static_cast<double>(count) - products[m][m]) / others - bias[m];
     }
-    double squares = 0;
-    for (const double value : left) squares += (value - middle) * (value - middle);
-    out.bias_squared_stderr =
-        std::sqrt(squares * static_cast<double>(count - 1) / static_cast<double>(count));
+    out.bias_squared_stderr = jackknife(bias);
+    out.variance_stderr = jackknife(variance);
     return out;
 }
 

@@ -25,8 +25,8 @@ struct Truth {
 struct ErrorParts {
     double squared_error = 0;  ///< Of one image against the truth; the reference's variance is taken off.
     double reference_variance = 0;
-    std::optional<double> variance, bias_squared;  ///< From two images on.
-    std::optional<double> bias_squared_stderr;     ///< From three images on.
+    std::optional<double> variance, bias_squared;                ///< From two images on.
+    std::optional<double> variance_stderr, bias_squared_stderr;  ///< From three images on.
 };
 
 /// Of the pixels where `mask` is not 0; an empty mask takes all. Images are as large as the truth; at least

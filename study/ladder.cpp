@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "capture/irradiance/irradiance_metric.h"
 #include "capture/sampling/gather_distribution.h"
 #include "results/convergence_row.h"
 #include "results/csv.h"
@@ -34,6 +35,16 @@ void add_steps(std::vector<Setting>& ladder, const Setting& base, std::initializ
 
 std::uint32_t whole(double value) {
     return static_cast<std::uint32_t>(std::lround(value));
+}
+
+/// With all its parameters.
+std::string irradiance_cache_of(std::string_view spec, const auto& refuse) {
+    try {
+        return capture::parse_irradiance_cache(spec).text;
+    } catch (const trace::UsageError& error) {
+        refuse("irradiance_cache", trace::in_quotes(spec), error.what());
+        return "";
+    }
 }
 
 /// With all its parameters; nothing for the default's.
@@ -132,6 +143,13 @@ std::vector<Setting> parse_ladder(std::string_view text, std::string_view file) 
                        "an empty cell: direct casts no such rays");
             setting.sampling = sampling_of(row.sampling, refuse);
         }
+        if (!row.irradiance_cache.empty()) {
+            if (setting.mode == capture::Visualisation::direct || setting.gather_rays == 0)
+                refuse("irradiance_cache", trace::in_quotes(row.irradiance_cache),
+                       "an empty cell: without gather rays there are no records");
+            setting.irradiance_cache = irradiance_cache_of(row.irradiance_cache, refuse);
+        }
+        setting.photon_seed = row.photon_seed;
         if (row.radius) {
             if (*row.radius <= 0)
                 refuse("radius", fmt::to_string(*row.radius), "a length above 0, or an empty cell");

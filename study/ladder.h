@@ -16,7 +16,11 @@ struct Setting {
     std::uint32_t gather_rays = 16, photons = 50'000, k = 50;
     double radius = std::numeric_limits<double>::infinity();  ///< [scene units]
     std::uint32_t caustic_photons = 50'000, samples = 4;
-    std::string sampling;  ///< Spec with all parameters; empty: the default strategy.
+    std::string sampling;          ///< Spec with all parameters; empty: the default strategy.
+    std::string irradiance_cache;  ///< Spec with all parameters; empty: none.
+    /// All images have the photons of this seed, so that they differ by what pixels draw alone; none: each
+    /// has its own.
+    std::optional<std::uint64_t> photon_seed;
 
     friend bool operator==(const Setting&, const Setting&) = default;
 };
@@ -29,7 +33,7 @@ std::string_view mode_name(capture::Visualisation mode);  ///< "final-gather", "
 std::vector<Setting> default_ladder(double diagonal, bool caustics);
 
 /// A table in CSV: a header with names of Setting's fields, a line a setting; what has no column stays at its
-/// default. mode: final-gather or direct; an empty radius: none; sampling: a strategy's spec.
+/// default. mode: final-gather or direct; an empty radius: none; sampling and irradiance_cache: specs.
 /// trace::DataError names file, line and column.
 std::vector<Setting> parse_ladder(std::string_view text, std::string_view file);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
@@ -23,34 +24,72 @@ int marker_of(const Curve& curve) {
     return curve.marker - (filled && curve.variant % 2 == 1 ? 1 : 0);
 }
 
+/// What tells where, and of which capture, rows are: scene, frame, sampling, cache of irradiance, structure,
+/// layout.
+using Whereabouts = std::array<std::string, 6>;
+
 struct Place {
-    std::string structure, layout;
+    Whereabouts whereabouts;
     std::vector<results::Row> rows;
 };
+
+std::string short_spec(const std::string& spec) {
+    return spec.substr(0, spec.find(':'));
+}
+
+Whereabouts whereabouts_of(const results::Row& row) {
+    return {row.scene,
+            row.frame ? fmt::format("frame {}", *row.frame) : "",
+            row.sampling.empty() ? "brdf" : short_spec(row.sampling),
+            row.irradiance_cache.empty() ? "no cache" : short_spec(row.irradiance_cache) + " cache",
+            row.structure,
+            row.layout};
+}
+
+constexpr std::size_t first_of_technique = 2, first_of_layout = 4;  // of Whereabouts
+
+/// Whether places differ in one of the traits `from` up to `to`.
+bool differ(const std::vector<Place>& places, std::size_t from, std::size_t to) {
+    return std::any_of(places.begin(), places.end(), [&](const Place& place) {
+        return !std::equal(place.whereabouts.begin() + static_cast<std::ptrdiff_t>(from),
+                           place.whereabouts.begin() + static_cast<std::ptrdiff_t>(to),
+                           places.front().whereabouts.begin() + static_cast<std::ptrdiff_t>(from));
+    });
+}
+
+/// What differs among the places; of structure and layout both.
+std::string name_of(const Place& place, const std::vector<Place>& all) {
+    std::vector<std::string> parts;
+    for (std::size_t t = 0; t < place.whereabouts.size(); ++t) {
+        const bool of_layout = t >= first_of_layout;
+        if (differ(all, of_layout ? first_of_layout : t, of_layout ? place.whereabouts.size() : t + 1))
+            parts.push_back(place.whereabouts[t]);
+    }
+    return results::joined(parts, ", ");
+}
 
 /// In the order of the rows' first appearance.
 std::vector<Place> places_of(std::span<const results::Row> rows, const results::Geometry& cache) {
     std::vector<Place> places;
     for (const results::Row& row : rows) {
         if (results::geometry_of(row) != cache || row.traffic_bytes.value_or(0) == 0) continue;
-        auto place = std::find_if(places.begin(), places.end(), [&](const Place& p) {
-            return p.structure == row.structure && p.layout == row.layout;
-        });
-        if (place == places.end()) place = places.insert(place, {row.structure, row.layout, {}});
+        auto place = std::find_if(places.begin(), places.end(),
+                                  [&](const Place& p) { return p.whereabouts == whereabouts_of(row); });
+        if (place == places.end()) place = places.insert(place, {whereabouts_of(row), {}});
         place->rows.push_back(row);
     }
     return places;
 }
 
-}  // namespace
-
-Chart traffic_by_layout(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options) {
+/// Where the traits `from` up to `to` differ: a line a place.
+Chart traffic_by_place(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options,
+                       std::size_t from, std::size_t to) {
     const std::vector<results::Row>& all = rows.of<results::Row>();
     const auto common = results::commonest_geometry(all);
     if (!common) return skip("no row has cache_bytes, line_bytes and ways");
     const results::Geometry cache = options.cache.value_or(*common);
     const std::vector<Place> places = places_of(all, cache);
-    if (places.size() < 2) return skip(fmt::format("needs {}", kind.needs));
+    if (!differ(places, from, to)) return skip(fmt::format("needs {}", kind.needs));
 
     Panel panel;
     panel.height = line_pixels * static_cast<double>(places.size());
@@ -94,14 +133,23 @@ Chart traffic_by_layout(const ChartKind& kind, const results::Rows& rows, const 
     }
     const Scale across = log_scale(values, byte_number);
     for (std::size_t p = 0; p < places.size(); ++p)
-        panel.notes.push_back(
-            {across.low, static_cast<double>(places.size() - 1 - p) + 0.72,
-             fitting(fmt::format("{}, {}", places[p].structure, places[p].layout), 11, place_width)});
+        panel.notes.push_back({across.low, static_cast<double>(places.size() - 1 - p) + 0.72,
+                               fitting(name_of(places[p], places), 11, place_width)});
     std::string text = results::geometry_text(cache);
     return draw({std::string(kind.title),
                  caption(every, "") + " · " + text.insert(text.find(','), " cache"),
                  {"traffic", across},
                  {std::move(panel)}});
+}
+
+}  // namespace
+
+Chart traffic_by_layout(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options) {
+    return traffic_by_place(kind, rows, options, first_of_layout, Whereabouts{}.size());
+}
+
+Chart traffic_by_technique(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options) {
+    return traffic_by_place(kind, rows, options, first_of_technique, first_of_layout);
 }
 
 }  // namespace regather::charts

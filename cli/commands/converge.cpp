@@ -55,8 +55,10 @@ void run_convergence(const study::ConvergenceJob& job, const Console& console) {
                   made.reference.samples, made.reference.seconds,
                   100 * made.reference_rmse / (made.mean_radiance > 0 ? made.mean_radiance : 1));
     const results::Table times = results::time_table(made.rows);
-    console.print("{}{}", results::text_of(results::convergence_table(made.rows)),
-                  times.empty() ? "" : '\n' + results::text_of(times));
+    const results::Table rays = results::equal_error_table(made.rows);
+    console.print("{}{}{}", results::text_of(results::convergence_table(made.rows)),
+                  times.empty() ? "" : '\n' + results::text_of(times),
+                  rays.empty() ? "" : '\n' + results::text_of(rays));
     if (made.known > 0) console.print("{} of {} settings were there already\n", made.known, made.rows.size());
     if (made.skipped > 0)
         console.print("{} of {} settings did not fit into the time; the same command goes on with them\n",

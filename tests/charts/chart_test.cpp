@@ -143,8 +143,9 @@ TEST(Chart, AnUnknownKindIsRefusedWithTheKnownOnes) {
             error.what(),
             "chart \"pie\" is not known, expected one of traffic-by-tile, traffic-by-cache, cost-by-tile, "
             "cost-by-bins, misses-by-class, net-benefit, best-under-budget, traffic-by-frame, "
-            "traffic-by-layout, traffic-by-depth, timeline, sampling-error, frame-traffic, error-by-time, "
-            "error-by-render-time, efficiency, bias-by-photons, bias-by-k, computation, stability");
+            "traffic-by-layout, traffic-by-technique, traffic-by-depth, timeline, sampling-error, "
+            "frame-traffic, error-by-time, error-by-render-time, time-to-error, efficiency, bias-by-photons, "
+            "bias-by-k, computation, stability");
     }
 }
 

@@ -27,6 +27,28 @@ TEST(Convergence, ErrorByTimeHasSlopesAndTheReferencesError) {
     EXPECT_EQ(data_of(effort, "$line_0", "photons"), "1 100\n4 100\n16 100\n");
 }
 
+TEST(Convergence, TimeToErrorHasALineAPictureAndError) {
+    // 5, 2 and 1 % of 2 are 0.1, 0.04 and 0.02: the box reaches 5 % in 4 s, the den all three by "samples".
+    std::vector<ConvergenceRow> rows = square_root();
+    for (const auto& [seconds, rmse] : {std::pair{8.0, 0.08}, std::pair{32.0, 0.02}}) {
+        rows.push_back(made_setting("samples", "final-gather", 10, 10, seconds, rmse));
+        rows.back().scene = "den";
+    }
+    const Chart chart = compose("time-to-error", Rows(rows));
+    ASSERT_EQ(chart.skipped, "");
+    EXPECT_EQ(data_of(chart, "$line_0", "photons"), "4 5.26\n");
+    const std::string samples = data_of(chart, "$line_0", "samples");
+    EXPECT_THAT(samples, HasSubstr("8 2.26"));     // at most: its quickest setting is better
+    EXPECT_THAT(samples, HasSubstr("16 1.26\n"));  // half-way to 0.02, in logarithms
+    EXPECT_THAT(samples, HasSubstr("32 0.26\n"));
+    for (const char* text : {"'box, 5 %'", "'box, 2 %: reached by none'", "'den, 1 %'"})
+        EXPECT_THAT(chart.commands, HasSubstr(text));
+    rows.resize(1);
+    rows[0].rmse = 1;
+    EXPECT_EQ(compose("time-to-error", Rows(rows)).skipped,
+              "needs settings of a ladder that reach 5 % of the mean radiance");
+}
+
 TEST(Convergence, BiasIsDrawnWithItsBarAndTheExpectedLine) {
     std::vector<ConvergenceRow> rows = {made_setting("direct-photons", "direct", 100, 10, 1, 0.2),
                                         made_setting("direct-photons", "direct", 400, 10, 2, 0.2),

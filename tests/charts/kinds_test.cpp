@@ -128,6 +128,21 @@ TEST(TrafficByLayout, ALineAStructureAndLayoutWithItsFloor) {
     EXPECT_THAT(compose("traffic-by-layout", {}).skipped, HasSubstr("no row"));
 }
 
+TEST(TrafficByTechnique, ALineACaptureByWhatItWasAsked) {
+    std::vector<Row> rows = {made_row("naive", {}, {}, 9000), made_row("naive", {}, {}, 5000),
+                             made_row("naive", {}, {}, 4000)};
+    rows[1].sampling = "combined:rows=4";
+    rows[2].sampling = rows[1].sampling;
+    rows[2].irradiance_cache = "bounded:tolerance=20";
+    EXPECT_EQ(compose("traffic-by-technique", only({rows[0]})).skipped,
+              "needs at least 2 strategies of sampling, or captures with and without a cache of irradiance");
+    EXPECT_EQ(compose("traffic-by-layout", only(rows)).skipped, "needs at least 2 structures or layouts");
+    const std::string text = script(compose("traffic-by-technique", only(rows)), Picture::svg);
+    for (const char* part : {"'brdf, no cache'", "'combined, no cache'", "'combined, bounded cache'",
+                             "\n9000 2.3\n", "\n5000 1.3\n", "\n4000 0.3\n"})
+        EXPECT_THAT(text, HasSubstr(part));
+}
+
 TEST(TrafficByLayout, TellsAnOrderingInTilesFromTheWholeImage) {
     std::vector<Row> rows = {made_row("hilbert", 16, {}, 5000), made_row("hilbert", {}, {}, 90),
                              made_row("hilbert", 16, {}, 4000), made_row("hilbert", {}, {}, 70)};
@@ -353,10 +368,10 @@ TEST(Chart, TheKindsThatAreWantedAreThoseWithRows) {
         return out;
     };
     EXPECT_THAT(names(wanted_kinds(Rows(details), {})), ElementsAre("traffic-by-depth"));
-    EXPECT_THAT(
-        names(wanted_kinds(only(rows), {})),
-        ElementsAre("traffic-by-tile", "traffic-by-cache", "cost-by-tile", "cost-by-bins", "misses-by-class",
-                    "net-benefit", "best-under-budget", "traffic-by-frame", "traffic-by-layout"));
+    EXPECT_THAT(names(wanted_kinds(only(rows), {})),
+                ElementsAre("traffic-by-tile", "traffic-by-cache", "cost-by-tile", "cost-by-bins",
+                            "misses-by-class", "net-benefit", "best-under-budget", "traffic-by-frame",
+                            "traffic-by-layout", "traffic-by-technique"));
     const std::string asked[] = {"timeline"};
     EXPECT_THAT(names(wanted_kinds(only(rows), asked)), ElementsAre("timeline"));
     EXPECT_TRUE(wanted_kinds({}, {}).empty());

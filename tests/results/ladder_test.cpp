@@ -52,5 +52,36 @@ TEST(Ladder, TablesTellErrorsInPercentOfTheMean) {
     EXPECT_TRUE(time_table({}).empty());
 }
 
+TEST(EqualErrors, AreVariancesOverThatOfCosine) {
+    ConvergenceRow cosine;
+    cosine.scene = "room";
+    cosine.mode = "final-gather";
+    cosine.gather_rays = 16;
+    cosine.photon_seed = 1;
+    cosine.sampling = "cosine";
+    cosine.indirect_variance = 6;
+    cosine.indirect_variance_stderr = 0.6;
+    ConvergenceRow combined = cosine;
+    combined.ladder = "another";
+    combined.sampling = "combined:rows=4";
+    combined.indirect_variance = 1.5;
+    combined.indirect_variance_stderr = 0.3;
+    ConvergenceRow more_rays = combined, own_photons = combined;
+    more_rays.gather_rays = 64;
+    own_photons.photon_seed = {};
+    const std::vector<ConvergenceRow> rows{combined, cosine, more_rays, own_photons};
+    const auto found = equal_errors(rows);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].row, &rows[0]);
+    EXPECT_DOUBLE_EQ(found[0].rays, 4);
+    // Relative errors 0.1 and 0.2: exp(1.96 sqrt(0.05)) = 1.5500.
+    EXPECT_NEAR(found[0].interval->first, 4 / 1.55, 1e-3);
+    EXPECT_NEAR(found[0].interval->second, 4 * 1.55, 1e-3);
+    EXPECT_EQ(text_of(equal_error_table(rows)),
+              "rays of cosine for the error of one   N  rays          95 %\n"
+              "combined:rows=4                      16  4.00  2.58 to 6.20\n");
+    EXPECT_TRUE(equal_error_table({}).empty());
+}
+
 }  // namespace
 }  // namespace regather::results

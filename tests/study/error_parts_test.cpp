@@ -39,6 +39,8 @@ TEST(ErrorParts, TheJackknifeByHand) {
     EXPECT_NEAR(*found.variance, 1, 1e-12);
     const double squares = std::pow(6 - 11.0 / 3, 2) + std::pow(3 - 11.0 / 3, 2) + std::pow(2 - 11.0 / 3, 2);
     EXPECT_NEAR(*found.bias_squared_stderr, std::sqrt(squares * 2 / 3), 1e-12);
+    // Variances of two: of 2 and 3 it is 1/2, of 1 and 3 it is 2, of 1 and 2 it is 1/2; their mean is 1.
+    EXPECT_NEAR(*found.variance_stderr, std::sqrt((0.25 + 1 + 0.25) * 2 / 3), 1e-12);
 }
 
 TEST(ErrorParts, OneImageHasNeither) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "study/convergence.h"
 #include "trace/error.h"
 
 namespace regather::study {
@@ -43,10 +44,28 @@ TEST(ParseLadder, EmptyCellsTakeTheDefaults) {
     EXPECT_EQ(found[1].radius, 0.5);
 }
 
+TEST(ParseLadder, SpecsHaveAllTheirParametersAndPhotonsAreHeld) {
+    const auto found = parse_ladder(
+        "ladder,sampling,irradiance_cache,photon_seed\nmine,brdf,bounded,7\nmine,cosine,,\n", "l.csv");
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_EQ(found[0].sampling, "");  // the default
+    EXPECT_EQ(found[0].irradiance_cache.substr(0, 8), "bounded:");
+    EXPECT_EQ(found[0].photon_seed, 7u);
+    EXPECT_EQ(found[1].irradiance_cache, "");
+    EXPECT_FALSE(found[1].photon_seed);
+    ConvergenceConfig config;
+    const capture::CaptureConfig held = capture_config(found[0], config, 3);
+    EXPECT_EQ(held.photon.seed, 7u);
+    EXPECT_EQ(held.pixels.seed, 3u);
+    EXPECT_EQ(held.pixels.irradiance_cache, found[0].irradiance_cache);
+    EXPECT_EQ(capture_config(found[1], config, 3).photon.seed, 3u);
+}
+
 TEST(ParseLadder, RefusesWhatNoRendererCanDo) {
     for (const char* text :
          {"ladder,k\nmine,0\n", "ladder,mode\nmine,fast\n", "ladder\n", "k\n5\n", "ladder,radius\nmine,0\n",
-          "ladder,k\n,5\n", "ladder\n../mine\n", "ladder\n\"mi\nne\"\n"})
+          "ladder,k\n,5\n", "ladder\n../mine\n", "ladder,irradiance_cache\nmine,none\n",
+          "ladder,mode,irradiance_cache\nmine,direct,bounded\n", "ladder\n\"mi\nne\"\n"})
         EXPECT_THROW(parse_ladder(text, "l.csv"), trace::DataError) << text;
 }
 
