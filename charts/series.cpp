@@ -52,12 +52,12 @@ using Traits = std::array<std::string, trait_count>;
 Traits traits_of(const results::Row& row, bool merge_frames) {
     return {row.scene,
             row.frame && !merge_frames ? fmt::format("frame {}", *row.frame) : "",
-            row.sampling,
-            row.irradiance_cache,
             row.structure,
             row.layout,
             row.policy,
             row.set_sampling.value_or(1) > 1 ? fmt::format("1/{} of the sets", *row.set_sampling) : "",
+            row.sampling,
+            row.irradiance_cache,
             results::other_parameters(row)};
 }
 

@@ -6,8 +6,6 @@ namespace {
 constexpr Column measurement_columns[] = {
     column<&Row::scene>("scene"),
     column<&Row::frame>("frame"),
-    column<&Row::sampling>("sampling"),
-    column<&Row::irradiance_cache>("irradiance_cache"),
     column<&Row::ordering>("ordering", Form::name, needed),
     column<&Row::tile>("tile"),
     column<&Row::bins>("bins"),
@@ -47,6 +45,8 @@ constexpr Column measurement_columns[] = {
     column<&Row::misses_stderr>("misses_stderr"),
     column<&Row::misses_low>("misses_low"),
     column<&Row::misses_high>("misses_high"),
+    column<&Row::sampling>("sampling"),
+    column<&Row::irradiance_cache>("irradiance_cache"),
 };
 
 }  // namespace

@@ -43,7 +43,7 @@ for part in $parts; do
         for scene in house arena caustics room meadow; do rows standing "$scene" "$scene" --width 256 --height 256; done
         python3 "$here/merge.py" standing results/standing.csv ;;
     frames)
-        for view in arena:8 arena:24 arena:40 house:8 house:24 house:40 caustics:6 caustics:18 caustics:30 meadow:6 meadow:18 meadow:30; do
+        for view in arena:8 arena:40 house:8 house:40 caustics:6 caustics:30 meadow:6 meadow:30; do
             rows frames "$(echo "$view" | tr : -)" "${view%:*}" --frames "${view#*:}" --width 128 --height 128
         done
         python3 "$here/merge.py" frames results/frames.csv ;;

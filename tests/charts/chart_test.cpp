@@ -159,7 +159,7 @@ TEST(Chart, TicksAreRoundAndEnclose) {
 TEST(Chart, EveryKindBecomesTwoPicturesWithItsLabels) {
     const Folder folder;
     const auto drawn = write_charts(folder.path(), Rows(figure()), {}, {});
-    ASSERT_EQ(drawn.size(), 9u);
+    ASSERT_EQ(drawn.size(), 10u);
     EXPECT_EQ(drawn[4].skipped, "no row has compulsory, capacity and conflict");
     EXPECT_EQ(drawn[5].kind, "net-benefit");
     for (const Drawn& one : std::span(drawn).first(4)) {

@@ -22,7 +22,8 @@ constexpr const char* first_header =
     "buffered_bytes,recast_rays,order_seconds,replay_seconds";
 constexpr const char* further_header =
     ",parameters,keys,sort_passes,stalls,compulsory,capacity,conflict,writebacks,onchip_bytes,"
-    "buffer_traffic_bytes,net_benefit_bytes,set_sampling,sampled_sets,misses_stderr,misses_low,misses_high\n";
+    "buffer_traffic_bytes,net_benefit_bytes,set_sampling,sampled_sets,misses_stderr,misses_low,misses_high,"
+    "sampling,irradiance_cache\n";
 
 /// What from_csv() says against `text`; "" when it takes it.
 template <class R = Row>
@@ -70,11 +71,14 @@ TEST(Csv, WritesAMeasurementAsDrawnByHand) {
     row.replay_seconds = 12;
     row.net_benefit_bytes = -20;
     row.misses_stderr = 0.1;
-    EXPECT_EQ(
-        to_csv(std::span(&row, 1)),
-        std::string(first_header) + further_header +
-            "room,,direction-binned,16,8,left-balanced-kd,heap-20,lru,131072,128,full,1000,140000,"
-            ",,,0,0,,,,,,0.250000,12.000000,\"direction-binned:tile=16,bins=8\",,,,,,,,,,-20,,,0.1,,\n");
+    row.sampling = "combined:rows=4";
+    row.irradiance_cache = "hessian";
+    EXPECT_EQ(to_csv(std::span(&row, 1)),
+              std::string(first_header) + further_header +
+                  "room,,direction-binned,16,8,left-balanced-kd,heap-20,lru,131072,128,full,1000,140000,"
+                  ",,,0,0,,,,,,0.250000,12.000000,\"direction-binned:tile=16,bins=8\",,,,,,,,,,-20,,,0.1,,,"
+                  "combined:rows=4,"
+                  "hessian\n");
 }
 
 /// Puts any value that the column can hold into a row's field.
