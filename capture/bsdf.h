@@ -21,6 +21,9 @@ inline bool is_specular(const Material& material) {
 struct Frame {
     explicit Frame(Vec3 normal);
     Vec3 to_world(Vec3 local) const { return tangent * local.x + bitangent * local.y + normal * local.z; }
+    Vec3 to_local(Vec3 world) const {
+        return {dot(tangent, world), dot(bitangent, world), dot(normal, world)};
+    }
     Vec3 tangent, bitangent, normal;
 };
 

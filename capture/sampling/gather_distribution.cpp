@@ -6,7 +6,9 @@
 #include <numbers>
 #include <vector>
 
+#include "capture/sampling/footprints.h"
 #include "capture/sampling/incident.h"
+#include "capture/sampling/lobes.h"
 #include "capture/sampling/mixture.h"
 #include "capture/sampling/oracle.h"
 #include "trace/range.h"
@@ -99,6 +101,10 @@ std::span<const SamplingStrategy> table() {
         {"incident", "by where the photons about the point came from, at least the floor of the cosine",
          incident_parameters(), make_incident},
         {"combined", "by the same table times the BRDF", incident_parameters(), make_combined},
+        {"footprints", "by discs about where the photons came from, smaller where more did",
+         footprint_parameters(), make_footprints},
+        {"lobes", "by a mixture of von Mises-Fisher lobes fitted to those photons, times the cosine",
+         lobe_parameters(), make_lobes},
         {"mis", "by the BRDF or by that table, each weighted (Veach & Guibas 1995)", mixture_parameters(),
          make_mixture},
         {"oracle", "by a table of the light that gather rays would find: a ceiling, at any cost",

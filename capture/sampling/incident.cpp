@@ -31,15 +31,11 @@ public:
 private:
     void fill(const ShadedPoint& point, std::span<float> shares) override {
         double squares = 0;
-        spatial::nearest(guide_.photons, point.position, found_);
-        for (std::size_t i = 0; i < found_.size(); ++i) {
-            const std::uint32_t photon = found_[i].node;
-            if (!guide_.is_witness(photon, point.surface)) continue;
-            const trace::Photon& witness = guide_.photons.nodes()[photon];
-            const float power = brightness(trace::decode_power(witness.power));
-            shares[table().cell_of(local(-trace::decode_direction(witness)))] += power;
+        guide_.for_each_witness(point.surface, point.position, found_, [&](Vec3 from, Vec3 colour) {
+            const float power = brightness(colour);
+            shares[table().cell_of(frame().to_local(from))] += power;
             squares += static_cast<double>(power) * static_cast<double>(power);
-        }
+        });
         if (smooth_) {
             smooth(shares);
             squares *= kept_by_smoothing();

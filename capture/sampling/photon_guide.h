@@ -28,6 +28,17 @@ struct PhotonGuide {
         if (origin[photon] == PhotonOrigin::specular && caustics_apart) return false;
         return is_used(photons.nodes()[photon], at, true);
     }
+    /// Of the photons nearest to `position`, as many as `found` holds, each that is one: f(where from, power
+    /// [any unit]), in a repeatable order.
+    template <class F>
+    void for_each_witness(const GatherPoint& at, Vec3 position, spatial::NearestSet& found, F&& f) const {
+        spatial::nearest(photons, position, found);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            if (!is_witness(found[i].node, at)) continue;
+            const trace::Photon& photon = photons.nodes()[found[i].node];
+            f(-trace::decode_direction(photon), trace::decode_power(photon.power));
+        }
+    }
 };
 
 }  // namespace regather::capture

@@ -12,7 +12,7 @@ class TableGuide : public GatherDistribution {
 public:
     void look(const ShadedPoint& point) final;
     bool sample(Strata::Point place, Sampler& sampler, GatherSample& found) const final;
-    double pdf(Vec3 direction) const final { return table_.pdf(local(direction)); }
+    double pdf(Vec3 direction) const final { return table_.pdf(frame_.to_local(direction)); }
 
 protected:
     /// `floor`, 0 to 1, of the density looks at no light. With `times_brdf` each cell's share is taken times
@@ -28,9 +28,6 @@ protected:
 
     const HemisphereTable& table() const { return table_; }
     const Frame& frame() const { return frame_; }
-    Vec3 local(Vec3 world) const {
-        return {dot(frame_.tangent, world), dot(frame_.bitangent, world), dot(frame_.normal, world)};
-    }
     static float brightness(Vec3 power) { return power.x + power.y + power.z; }
 
 private:

@@ -163,6 +163,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"brdf", 0.5f, 0, 1, {1, 0, 1}}, Case{"brdf", 0.2f, 0.5f, 8, {1, 1, 1}},
                     Case{"incident", 0.5f, 0, 1, {1, 0, 1}},
                     Case{"incident:rows=2,columns=4,floor=10,smooth=0", 0.5f, 0, 1, {1, 0, 1}},
+                    Case{"lobes", 0.5f, 0, 1, {1, 0, 1}},
+                    Case{"lobes:lobes=7,shrink=0,floor=5", 0.2f, 0.5f, 20, {-1, 0, 1}},
+                    Case{"footprints:k=60,neighbours=50", 0.5f, 0, 1, {1, 0, 1}},
+                    Case{"footprints:k=100,neighbours=90,floor=30", 0.2f, 0.5f, 20, {-1, 0, 1}},
                     Case{"mis:brdf=30", 0.2f, 0.5f, 20, {-1, 0, 1}},
                     Case{"mis:brdf=60,heuristic=power", 0.2f, 0.5f, 20, {1, 0, 1}},
                     Case{"combined:rows=8,columns=16", 0.2f, 0.5f, 20, {-1, 0, 1}},
@@ -304,10 +308,26 @@ TEST(Sampling, SpecsThatCannotBeAreRefused) {
     const PhotonGuide none;
     EXPECT_THROW(parse_sampling("cosin"), trace::UsageError);
     EXPECT_THROW(parse_sampling("cosine:k=3"), trace::UsageError);
-    for (const char* const spec :
-         {"incident:rows=65", "incident:columns=5", "incident:floor=0", "incident:floor=101",
-          "incident:smooth=2", "incident:shrink=2", "combined:k=0", "oracle:probes=0", "oracle:floor=0",
-          "oracle:brdf=2", "mis:brdf=0"})
+    for (const char* const spec : {"incident:rows=65",
+                                   "incident:columns=5",
+                                   "incident:floor=0",
+                                   "incident:floor=101",
+                                   "incident:smooth=2",
+                                   "incident:shrink=2",
+                                   "combined:k=0",
+                                   "oracle:probes=0",
+                                   "oracle:floor=0",
+                                   "oracle:brdf=2",
+                                   "mis:brdf=0",
+                                   "lobes:lobes=0",
+                                   "lobes:lobes=17",
+                                   "lobes:iterations=0",
+                                   "lobes:k=0",
+                                   "lobes:floor=0",
+                                   "lobes:shrink=2",
+                                   "footprints:k=0",
+                                   "footprints:neighbours=0",
+                                   "footprints:floor=101"})
         EXPECT_THROW(parse_sampling(spec).make(none), trace::UsageError) << spec;
     EXPECT_EQ(parse_sampling("brdf").text, default_sampling);
     EXPECT_EQ(parse_sampling("incident:rows=2").text,

@@ -65,7 +65,8 @@ TEST(Strategies, AllConvergeToTheSamePicture) {
     ASSERT_LT(by_cosine.error, 0.02 * by_cosine.mean);
     for (const char* const spec :
          {"uniform", "brdf", "incident", "incident:rows=2,columns=4,k=20,shrink=0,floor=30", "combined",
-          "combined:rows=8,columns=32", "mis", "mis:heuristic=power,brdf=30", "oracle:probes=1"}) {
+          "combined:rows=8,columns=32", "mis", "mis:heuristic=power,brdf=30", "oracle:probes=1", "lobes",
+          "lobes:lobes=9,k=40,shrink=0", "footprints:k=50"}) {
         const Pictures picture = rendered(spec);
         EXPECT_NEAR(picture.mean, by_cosine.mean, 4 * std::hypot(picture.error, by_cosine.error)) << spec;
         EXPECT_LT(picture.error, 0.03 * by_cosine.mean) << spec;
