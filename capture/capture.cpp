@@ -8,6 +8,8 @@
 #include <memory>
 #include <numeric>
 
+#include "capture/baselines/precomputed_irradiance.h"
+#include "capture/baselines/reverse_gather.h"
 #include "capture/irradiance/irradiance_pass.h"
 #include "capture/irradiance/octree_columns.h"
 #include "capture/light_probe.h"
@@ -50,6 +52,30 @@ trace::Json counts_of(const PhotonTally& tally) {
                                 {"cut_off_watts", tally.cut_off}});
 }
 
+/// The photons of the map between two that are searched at.
+std::uint32_t photons_apart(const CaptureConfig& config) {
+    return std::max(1u, config.precompute_every);
+}
+
+/// Of a trace whose queries are not the picture's.
+void describe(trace::TraceInfo& info, const char* map, const Scene& scene, const CaptureConfig& config) {
+    info.scene = scene.name;
+    info.map = map;
+    info.frame = config.frame;
+    info.seed = config.pixels.seed;
+    info.parameters = trace::Json::object({{"capture", parameters(scene, config)}});
+}
+
+/// The photons in the order in which they were stored.
+ReachingPhotons in_order(ReachingPhotons reaching, std::span<const std::uint32_t> from) {
+    ReachingPhotons stored = reaching;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        stored.photons[from[i]] = reaching.photons[i];
+        stored.radius2[from[i]] = reaching.radius2[i];
+    }
+    return stored;
+}
+
 /// A photon map: its photons in heap order, what its searches have found, and its trace.
 struct Map {
     explicit Map(const GatherConfig& gather) : config(gather) {}
@@ -60,17 +86,34 @@ struct Map {
     std::vector<trace::Photon> whole;  // where `heap` is of packed ones: the photons before, in heap order
     PhotonTally tally;
     Gathered gathered, of_whole;
+    std::optional<PrecomputedIrradiance> precomputed;  // is looked up, and the photons are not gathered
+    std::optional<ReverseGather> reverse;              // the photons search the queries
+    trace::TraceWriter* reverse_writer = nullptr;
     trace::TraceInfo info;
     std::unique_ptr<TraceColumns> columns;
 
+    /// What queries search.
+    std::span<const trace::Photon> searched() const {
+        if (reverse) return {};
+        return precomputed ? precomputed->records : heap;
+    }
+
     void gather(const Scene& scene, const Queries& queries, const CaptureConfig& capture) {
+        if (reverse) {
+            reverse->run(scene, queries, reverse_writer, gathered);
+            info.queries += queries.size();
+            return;
+        }
         std::vector<std::uint32_t> order(queries.size());
         if (capture.order) {
             order = capture.order(queries);
         } else {
             std::iota(order.begin(), order.end(), 0u);
         }
-        capture::gather(scene, spatial::PhotonKd(heap), queries, order, config, gathered);
+        if (precomputed)
+            look_up(scene, precomputed->records, queries, order, config, gathered);
+        else
+            capture::gather(scene, spatial::PhotonKd(heap), queries, order, config, gathered);
         if (capture.record == PhotonRecord::packed)
             capture::gather(scene, spatial::PhotonKd(whole), queries, order, config, of_whole);
         info.queries += queries.size();
@@ -89,6 +132,14 @@ void check(const CaptureConfig& config) {
         throw trace::UsageError("samples: found 0, expected at least one eye ray a pixel");
     // A dielectric splits an eye ray once, and each shaded point has one gather ray at least.
     std::uint64_t most = std::max<std::uint64_t>(pixels.gather_rays, 1) + 2 * std::uint64_t{pixels.samples};
+    if (has_precomputation(config) && config.record == PhotonRecord::packed)
+        throw trace::UsageError(
+            "precomputed irradiance or reverse gathering: found packed photons, expected whole ones: what "
+            "packing does to the image is told from two gathers of each query");
+    if (config.reverse_pixels > 0 && (config.precompute_every > 0 || has_irradiance_cache(config)))
+        throw trace::UsageError(
+            fmt::format("reverse gathering: found beside {}, expected one of them",
+                        config.precompute_every > 0 ? "precomputed irradiance" : "an irradiance cache"));
     if (has_irradiance_cache(config)) {
         if (config.record == PhotonRecord::packed)
             throw trace::UsageError(
@@ -133,6 +184,14 @@ trace::Json parameters(const Scene& scene, const CaptureConfig& config) {
         all["sampling"] = sampling;
     if (has_irradiance_cache(config))
         all["irradiance_cache"] = parse_irradiance_cache(pixels.irradiance_cache).text;
+    const trace::Json radius = length_of(config.gather.radius);
+    if (has_precomputation(config))
+        all["precompute"] = trace::Json::object(
+            {{"every", photons_apart(config)}, {"k", config.gather.k}, {"radius", radius}});
+    if (config.precompute_every > 0) all["precomputed"] = trace::Json::object({{"k", 1}, {"radius", radius}});
+    if (config.reverse_pixels > 0)
+        all["hits"] = trace::Json::object(
+            {{"k", config.gather.k}, {"radius", radius}, {"pixels", config.reverse_pixels}});
     if (has_caustic_map(scene, config))
         all["caustic"] =
             trace::Json::object({{"photons", config.caustic.photons},
@@ -144,6 +203,10 @@ trace::Json parameters(const Scene& scene, const CaptureConfig& config) {
             {{"k", std::min(parse_sampling(pixels.sampling).photons_asked(), config.photon.photons)},
              {"radius", trace::Json()}});
     return all;
+}
+
+bool has_precomputation(const CaptureConfig& config) {
+    return config.precompute_every > 0 || config.reverse_pixels > 0;
 }
 
 bool has_guide(const CaptureConfig& config) {
@@ -178,6 +241,30 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
     Clock clock;
     const RayCaster caster(scene);
     const LightSampler lights(scene);
+    Map global(config.gather);
+    // `from`: which of the photons as they were stored each of the heap's is.
+    const auto precompute = [&](std::span<const std::uint32_t> from) {
+        ReachingPhotons reaching;
+        if (config.precompute_every > 0) {
+            global.precomputed = precompute_irradiance(global.heap, config.precompute_every, config.gather);
+            result.nonfinite.count(Stage::estimate, global.precomputed->nonfinite);
+        } else {
+            reaching = reaching_photons(global.heap, config.gather);
+        }
+        if (writers.precompute) {
+            trace::TraceInfo& info = result.precompute_info.emplace();
+            write_photon_searches(*writers.precompute, global.heap, photons_apart(config),
+                                  global.precomputed ? global.precomputed->searches : reaching.searches,
+                                  info);
+            describe(info, "precompute", scene, config);
+            info.k = config.gather.k;
+            info.parameters["precompute"] = *parameters(scene, config).find("precompute");
+        }
+        if (global.precomputed) return;
+        global.reverse_writer = writers.reverse;
+        global.reverse.emplace(in_order(std::move(reaching), from), config.gather,
+                               static_cast<std::uint32_t>(pixels));
+    };
     const auto build = [&](Map& map, const PhotonConfig& photon, trace::TraceWriter* writer) {
         clock.lap();
         PhotonPass pass = trace_photons(scene, caster, lights, photon);
@@ -193,14 +280,14 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
                        [&](std::uint32_t one) { return pass.origin[one]; });
         map.tally = pass.tally;
         result.nonfinite += pass.tally.nonfinite;
+        if (&map == &global && has_precomputation(config)) precompute(from);
         result.tree_seconds += clock.lap();
         if (!writer) return;
         const bool gathered =
             writer == writers.global && config.pixels.visualisation == Visualisation::final_gather;
         map.columns = std::make_unique<TraceColumns>(scene, config.columns, needs, *writer, gathered);
-        map.columns->write_photons(map.heap);
+        map.columns->write_photons(map.searched());
     };
-    Map global(config.gather);
     PhotonConfig photon = config.photon;
     if (caustics && config.pixels.visualisation == Visualisation::direct)
         photon.kind = PhotonKind::all_but_caustic;
@@ -236,6 +323,8 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         result.nonfinite += work.nonfinite;
         if (!global.columns) return;
         global.columns->write_queries(work.queries, global.gathered);
+        if (global.precomputed && config.gather.surface_check)
+            writers.global->column("query_normal").append(std::span<const Vec3>(work.queries.normal));
         global.columns->write_rays(work);
     };
     std::optional<IrradiancePass> irradiance;
@@ -278,7 +367,9 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
                                                                      config.pixels.shadow_rays *
                                                                      std::min<std::size_t>(lights.size(), 4);
     const std::uint64_t batch =
-        std::max<std::uint64_t>(1, batch_rays / std::max<std::uint64_t>(pixel_rays, 1));
+        config.reverse_pixels > 0
+            ? config.reverse_pixels
+            : std::max<std::uint64_t>(1, batch_rays / std::max<std::uint64_t>(pixel_rays, 1));
     for (std::uint64_t first = 0; first < pixels; first += batch) {
         clock.lap();
         const std::uint64_t count = std::min(batch, pixels - first);
@@ -310,8 +401,8 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         info.frame = config.frame;
         info.image_width = config.pixels.width;
         info.image_height = config.pixels.height;
-        info.k = map.config.k;
-        info.photons = map.heap.size();
+        info.k = map.precomputed ? 1 : map.config.k;
+        info.photons = map.searched().size();
         info.seed = config.pixels.seed;
         info.parameters = parameters(scene, config);
         info.counts = counts_of(map.tally);
@@ -326,7 +417,18 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         }
         return info;
     };
-    result.info = finish(global, "global");
+    result.info = finish(global, global.precomputed ? "precomputed" : global.reverse ? "hits" : "global");
+    if (result.precompute_info) result.info.counts["precompute_queries"] = result.precompute_info->queries;
+    if (global.reverse) {
+        result.info.counts["reverse_passes"] = global.reverse->passes();
+        result.info.counts["reverse_points"] = global.reverse->points();
+        result.info.counts["reverse_additions"] = global.reverse->additions();
+    }
+    if (global.reverse && writers.reverse) {
+        trace::TraceInfo& info = result.reverse_info.emplace();
+        global.reverse->finish(*writers.reverse, info);
+        describe(info, "global", scene, config);
+    }
     if (irradiance && writers.irradiance) {
         finish_searches(*writers.irradiance, irradiance->octree(), octree_info);
         octree_info.scene = scene.name;

@@ -40,6 +40,12 @@ struct CaptureConfig {
     /// What the photons of both maps are stored in. Packed ones are searched, seen and written where their
     /// records say that they are; rays, queries and paths of photons stay as they are.
     PhotonRecord record = PhotonRecord::whole;
+    /// Irradiance is precomputed at every so many photons of the global map, and what would be gathered from
+    /// them is read (baselines/precomputed_irradiance.h). 0: it is gathered.
+    std::uint32_t precompute_every = 0;
+    /// Photons search the hit points of so many pixels at a time, and light those that they reach
+    /// (baselines/reverse_gather.h). 0: hit points search photons.
+    std::uint32_t reverse_pixels = 0;
     Columns columns;
     std::set<std::string> keep;  ///< Parts that the scene has no need of (scenes/needs.h), kept all the same.
     std::optional<std::uint32_t>
@@ -66,6 +72,8 @@ struct Captured {
     trace::TraceInfo info;
     std::optional<trace::TraceInfo> caustic_info;  ///< Where there is a caustic map.
     std::optional<trace::TraceInfo> guide_info;    ///< Where directions are chosen by searches, and written.
+    std::optional<trace::TraceInfo> precompute_info;  ///< Where has_precomputation().
+    std::optional<trace::TraceInfo> reverse_info;     ///< Where photons search hit points.
     std::optional<trace::TraceInfo> irradiance_info;  ///< Where there is an irradiance cache: of its octree.
     double photon_seconds = 0, tree_seconds = 0, query_seconds = 0, gather_seconds = 0, write_seconds = 0;
     Nonfinite nonfinite;                        ///< What was left out of the image and the maps.
@@ -87,12 +95,17 @@ bool has_caustic_map(const Scene& scene, const CaptureConfig& config);
 /// Whether the directions of gather rays are chosen by searches of the global map.
 bool has_guide(const CaptureConfig& config);
 
+/// Whether photons are searched at photons, for the irradiance there or for how far they reach.
+bool has_precomputation(const CaptureConfig& config);
+
 /// Where the columns go: each photon map has a trace of its own, and so has an irradiance cache. Null:
 /// nowhere.
 struct TraceWriters {
     trace::TraceWriter* global = nullptr;
     trace::TraceWriter* caustic = nullptr;
     trace::TraceWriter* guide = nullptr;  ///< Of the searches that choose directions; has photons of its own.
+    trace::TraceWriter* precompute = nullptr;  ///< Of the searches at photons, before any gather.
+    trace::TraceWriter* reverse = nullptr;     ///< Of the photons' searches of hit points.
     trace::TraceWriter* irradiance = nullptr;  ///< Searches of the octree of irradiance records.
 };
 
@@ -100,8 +113,8 @@ struct TraceWriters {
 /// are gather rays.
 bool has_irradiance_cache(const CaptureConfig& config);
 
-/// Renders, and writes columns; the caller finishes the writers with Captured::info, caustic_info and
-/// irradiance_info when all else that belongs to the capture is written. UsageError for a picture without
+/// Renders, and writes columns; the caller finishes the writers with what Captured has for each
+/// when all else that belongs to the capture is written. UsageError for a picture without
 /// pixels or of 2^32 queries or more.
 Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWriters& writers = {});
 

@@ -9,6 +9,7 @@
 
 #include "capture/query_pass.h"
 #include "capture/radiance_estimate.h"
+#include "capture/search_pass.h"
 #include "spatial/photons/photon_kd.h"
 
 namespace regather::capture {
@@ -21,12 +22,9 @@ struct GatherConfig {
         true;  ///< Photons of surfaces that face elsewhere (normals more than 60 degrees apart) are not used.
 };
 
-/// Row i belongs to query i, whatever the order of the searches.
-struct Gathered {
-    std::vector<Vec3> radiance;             ///< Estimate towards the gather ray [W / (m^2 sr)].
-    std::vector<std::uint32_t> walk_bytes;  ///< Length of each walk.
-    std::vector<std::uint8_t> walks;        ///< The walks in query order.
-    std::uint64_t found_photons = 0, visited_nodes = 0;
+/// And what each search was for.
+struct Gathered : Searched {
+    std::vector<Vec3> radiance;  ///< Estimate towards the gather ray [W / (m^2 sr)].
 };
 
 /// `order[r]` is the query that runs r-th (in each thread's share); a permutation of the queries. Estimates

@@ -3,10 +3,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "spatial/photons/nearest_facing.h"
+
 namespace regather::capture {
 namespace {
 
-constexpr float cone_slope = 1 / 1.1f, beta = 1.953f, least_cosine = 0.5f;
+constexpr float cone_slope = 1 / 1.1f, beta = 1.953f;
 
 struct Even {
     float operator()(float) const { return 1; }
@@ -48,11 +50,15 @@ Vec3 weighted_sum(const spatial::PhotonKd& photons, const spatial::NearestSet& f
 
 }  // namespace
 
+float filter_weight(Filter filter, float share2) {
+    return filter == Filter::none   ? Even{}(share2)
+           : filter == Filter::cone ? Cone{}(share2)
+                                    : Gaussian{}(share2);
+}
+
 bool is_used(const trace::Photon& photon, const GatherPoint& at, bool surface_check) {
     if (!(dot(at.normal, trace::decode_direction(photon)) < 0)) return false;
-    if (!surface_check) return true;
-    const Vec3 own = trace::decode_normal(photon);
-    return own == Vec3{} || dot(own, at.normal) > least_cosine;
+    return !surface_check || spatial::faces(photon, at.normal);
 }
 
 Vec3 reflected_radiance(const spatial::PhotonKd& photons, const spatial::NearestSet& found,

@@ -22,6 +22,9 @@ struct GatherPoint {
     Vec3 normal, to_viewer;
 };
 
+/// Of a photon at `share2` = (distance / radius)^2, in [0, 1].
+float filter_weight(Filter filter, float share2);
+
 /// Whether a photon lights the surface: it comes from before it and, with `surface_check`, its own surface's
 /// normal, where it tells one, is within 60 degrees.
 bool is_used(const trace::Photon& photon, const GatherPoint& at, bool surface_check);

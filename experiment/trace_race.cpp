@@ -75,6 +75,7 @@ std::vector<results::RaceRow> race(trace::TraceReader& trace, TraceRace asked,
             fmt::format("{}: parameters.radius: found nothing, expected the radius of the searches (null: "
                         "unlimited), which the race runs again",
                         trace::shown((trace.folder() / "trace.json").string(), trace::most_shown_path)));
+    replay::refuse_normals(trace);
     const RaceConfig config{.k = asked.k == 0 ? info.k : asked.k,
                             .radius = *radius,
                             .repeats = asked.repeats,

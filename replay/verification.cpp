@@ -159,6 +159,7 @@ private:
         check_pixels("query_pixel");
         check_rows<Vec3>("query_weight", "finite numbers", [](Vec3 v) { return trace::is_finite(v); });
         check_directions("query_direction");
+        check_directions("query_normal");
         check_labels("query_leaf_kd", "leaves_kd");
         check_labels("query_leaf_bvh", "leaves_bvh");
         for (const char* const point : {"query_end", "query_guess"})
@@ -254,6 +255,14 @@ private:
                          fmt::format("{}, as the searches and exact ones find", expected));
     }
 
+    spatial::Recording recorded(const spatial::PhotonSearch& search, std::span<const Vec3> points,
+                                std::uint64_t first, float radius) {
+        if (!trace_.has("query_normal")) return search.record(points, info_.k, radius, has_candidates());
+        return spatial::record_facing(spatial::PhotonKd(trace_.column<trace::Photon>("photon")), points,
+                                      trace_.column<Vec3>("query_normal").subspan(first, points.size()),
+                                      radius);
+    }
+
     void check_searches(const QueriesDone& progress) {
         const std::uint64_t most = info_.queries * std::min<std::uint64_t>(info_.k, info_.photons);
         if (info_.found_photons > most)
@@ -286,7 +295,7 @@ private:
         for (std::uint64_t first = 0; first < positions.size(); first += batch) {
             const std::span<const Vec3> points =
                 positions.subspan(first, std::min(batch, positions.size() - first));
-            const spatial::Recording again = search->record(points, info_.k, *radius, has_candidates());
+            const spatial::Recording again = recorded(*search, points, first, *radius);
             take_same(walks, {again.walk_bytes, again.walks}, first, "walk", "another walk",
                       "the one of " + search_for);
             if (has_candidates())
@@ -330,6 +339,14 @@ std::optional<float> search_radius(const trace::TraceReader& trace) {
     const auto length = static_cast<float>(radius->number());
     if (!(length > 0) || !std::isfinite(length)) refuse(shown(*radius));
     return length;
+}
+
+void refuse_normals(const trace::TraceReader& trace) {
+    if (trace.has("query_normal"))
+        throw trace::DataError(
+            fmt::format("{}: found searches of the nearest record whose surface faces as the query's does, "
+                        "expected searches of the k nearest photons, which can be run again elsewhere",
+                        (trace.folder() / "query_normal.npy").string()));
 }
 
 Verified verify(trace::TraceReader& trace, const QueriesDone& progress) {

@@ -18,6 +18,10 @@ struct Verified {
 /// does not say. Throws trace::DataError when it says what is no radius, or is of a capture, which says it.
 std::optional<float> search_radius(const trace::TraceReader& trace);
 
+/// Throws trace::DataError for a trace whose searches look for a surface that faces as the query's does: not
+/// what searches of other structures do.
+void refuse_normals(const trace::TraceReader& trace);
+
 /// Reads every column and checks: k, size, seed and rays of trace.json against its parameters and columns;
 /// checksums; the order of the tree, finite photons; pixels inside the image;
 /// finite weights; unit directions; leaf labels below the number of leaves, where trace.json says it; rays;

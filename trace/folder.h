@@ -34,8 +34,10 @@ std::span<const ColumnEntry> column_table();
 const ColumnEntry& column_entry(std::string_view name);  ///< UsageError for an unknown name.
 
 /// What is searched: the photon maps of a capture; "guide" is the global map, asked where gather rays should
-/// go.
-inline constexpr std::array<std::string_view, 3> map_names{"global", "caustic", "guide"};
+/// go, "precompute" the global map, asked for the irradiance at photons, and "precomputed" the records of it;
+/// "hits" search nothing: photons search them.
+inline constexpr std::array<std::string_view, 6> map_names{"global",     "caustic",     "guide",
+                                                           "precompute", "precomputed", "hits"};
 
 /// The rays of a capture: columns ray_KIND_*.
 inline constexpr std::array<std::string_view, 4> ray_kinds{"eye", "specular", "shadow", "gather"};

@@ -73,6 +73,14 @@ std::string octree_figures(const trace::TraceInfo& info) {
                            static_cast<double>(std::max<std::uint64_t>(info.queries, 1)));
 }
 
+std::string reverse_figures(const trace::TraceInfo& info) {
+    return fmt::format(
+        "  photons: {} searches of hit points, {:.1f} of them and sums of pixels visited a search\n",
+        info.queries,
+        static_cast<double>(info.visited_nodes) /
+            static_cast<double>(std::max<std::uint64_t>(info.queries, 1)));
+}
+
 /// Where the parts of one captured frame lie.
 struct Files {
     explicit Files(const fs::path& folder)
@@ -81,8 +89,10 @@ struct Files {
           trace(folder / "trace"),
           caustic_trace(folder / "caustic-trace"),
           guide_trace(folder / "guide-trace"),
+          precompute_trace(folder / "precompute-trace"),
+          reverse_trace(folder / "reverse-trace"),
           irradiance_trace(folder / "irradiance-trace") {}
-    fs::path exr, png, trace, caustic_trace, guide_trace, irradiance_trace;
+    fs::path exr, png, trace, caustic_trace, guide_trace, precompute_trace, reverse_trace, irradiance_trace;
 };
 
 /// What is said of a finished capture of the same; nothing when there is none.
@@ -104,6 +114,9 @@ std::optional<std::string> kept(const fs::path& folder, const Files& files, cons
     if (capture::has_caustic_map(scene, config))
         report += figures(trace::TraceReader(files.caustic_trace).info());
     if (capture::has_guide(config)) report += figures(trace::TraceReader(files.guide_trace).info());
+    if (capture::has_precomputation(config))
+        report += figures(trace::TraceReader(files.precompute_trace).info());
+    if (config.reverse_pixels > 0) report += reverse_figures(trace::TraceReader(files.reverse_trace).info());
     report += record_figures(trace.info());
     report += irradiance_figures(trace.info());
     if (capture::has_irradiance_cache(config))
@@ -129,10 +142,14 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
             fs::remove_all(to);
         return wanted ? &*further : nullptr;
     };
-    std::optional<trace::TraceWriter> caustic_writer, guide_writer, irradiance_writer;
+    std::optional<trace::TraceWriter> caustic_writer, guide_writer, precompute_writer, reverse_writer,
+        irradiance_writer;
     const capture::TraceWriters writers{
-        &writer, further_trace(caustic_writer, has_caustics, files.caustic_trace),
+        &writer,
+        further_trace(caustic_writer, has_caustics, files.caustic_trace),
         further_trace(guide_writer, capture::has_guide(config), files.guide_trace),
+        further_trace(precompute_writer, capture::has_precomputation(config), files.precompute_trace),
+        further_trace(reverse_writer, config.reverse_pixels > 0, files.reverse_trace),
         further_trace(irradiance_writer, capture::has_irradiance_cache(config), files.irradiance_trace)};
     const std::string shown = trace::shown(scene.name);
     const std::string name = config.frame ? fmt::format("{}, frame {}", shown, *config.frame) : shown;
@@ -148,6 +165,8 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
     capture::write_png(files.png, captured.image, exposure, options.tone_curve());
     if (caustic_writer) caustic_writer->finish(*captured.caustic_info);
     if (guide_writer) guide_writer->finish(*captured.guide_info);
+    if (precompute_writer) precompute_writer->finish(*captured.precompute_info);
+    if (reverse_writer) reverse_writer->finish(*captured.reverse_info);
     if (irradiance_writer) irradiance_writer->finish(*captured.irradiance_info);
     writer.finish(captured.info);
 
@@ -156,6 +175,8 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
                     config.frame ? fmt::format(", frame {}", *config.frame) : "", figures(captured.info));
     if (captured.caustic_info) report += figures(*captured.caustic_info);
     if (captured.guide_info) report += figures(*captured.guide_info);
+    if (captured.precompute_info) report += figures(*captured.precompute_info);
+    if (captured.reverse_info) report += reverse_figures(*captured.reverse_info);
     report += record_figures(captured.info);
     report += irradiance_figures(captured.info);
     if (captured.irradiance_info) report += octree_figures(*captured.irradiance_info);
@@ -170,6 +191,9 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
                           files.trace.string(),
                           caustic_writer ? fmt::format(" and {}", files.caustic_trace.string()) : "",
                           guide_writer ? fmt::format(" and {}", files.guide_trace.string()) : "");
+    if (precompute_writer)
+        report += fmt::format("  precomputation's trace: {}\n", files.precompute_trace.string());
+    if (reverse_writer) report += fmt::format("  photons' trace: {}\n", files.reverse_trace.string());
     if (irradiance_writer) report += fmt::format("  octree's trace: {}\n", files.irradiance_trace.string());
     return report;
 }

@@ -60,6 +60,8 @@ capture::CaptureConfig CaptureOptions::config() const {
         .filter = chosen<capture::Filter>(caustic_filter, capture::filter_names, "caustic_filter")};
     config.record =
         chosen<capture::PhotonRecord>(photon_record, capture::photon_record_names, "photon_record");
+    config.precompute_every = precompute_every;
+    config.reverse_pixels = reverse_pixels;
     config.keep = {keep.begin(), keep.end()};
     tone_curve();
     config.columns.rays = rays;
@@ -144,6 +146,12 @@ std::span<const CaptureKey> capture_keys() {
          .help =
              "bytes of a photon; 16: positions in 21 bits an axis, and what that does to the image is told",
          .words = capture::photon_record_names},
+        {"precompute_every", &Options::precompute_every,
+         "irradiance is estimated at every so many photons, and gathers read the nearest; 0: they gather", 0,
+         most_photons},
+        {"reverse_pixels", &Options::reverse_pixels,
+         "photons search the hit points of so many pixels at a time; 0: hit points search photons", 0,
+         most_pixels * most_pixels},
         {"keep", &Options::keep,
          "parts to build although the scene has no need of them (regather info SCENE lists them)"},
         {"frames", &Options::frames,
@@ -169,8 +177,10 @@ std::vector<IdleKeys> idle_keys(const CaptureOptions& options) {
                         "direct",
                         "casts no such rays"});
     if (options.photon_record == "16")
-        idle.push_back(
-            {{"irradiance_cache"}, "photon_record", "16", "is told from two gathers of each pixel"});
+        idle.push_back({{"irradiance_cache", "precompute_every", "reverse_pixels"},
+                        "photon_record",
+                        "16",
+                        "is told from two gathers of each pixel"});
     if (options.gather_rays == 0)
         idle.push_back({{"irradiance_cache"}, "gather_rays", "0", "gathers nothing"});
     if (options.caustic_photons == 0)

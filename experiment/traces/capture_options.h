@@ -33,8 +33,10 @@ struct CaptureOptions {
     std::uint32_t caustic_photons = 100'000, caustic_k = 60;
     double caustic_radius = 0;  ///< [scene units]; 0 or infinity: unlimited
     std::string caustic_filter = "cone";
-    std::string photon_record = "20";  ///< capture::photon_record_names [bytes]
-    std::vector<std::string> keep;     ///< Parts that the scene has no need of.
+    std::string photon_record = "20";    ///< capture::photon_record_names [bytes]
+    std::uint32_t precompute_every = 0;  ///< CaptureConfig::precompute_every.
+    std::uint32_t reverse_pixels = 0;    ///< CaptureConfig::reverse_pixels.
+    std::vector<std::string> keep;       ///< Parts that the scene has no need of.
     std::string frames;   ///< Of the camera path, as of experiment/frames.h; empty: the standing camera.
     double exposure = 0;  ///< Of image.png [1 / radiance]; 0: by the image's mean.
     std::string tone = "exponential";

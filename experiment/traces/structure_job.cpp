@@ -50,6 +50,7 @@ std::string run(const StructureJob& job, const ProgressListener& progress) {
         throw trace::DataError(
             fmt::format("{}: parameters: found no radius, expected how far the queries were searched",
                         (from.folder() / "trace.json").string()));
+    replay::refuse_normals(from);
     const std::span<const trace::Vec3> positions = from.column<trace::Vec3>("query_position");
     const auto search = spatial::build(spec, photons, info.k, *radius);
 

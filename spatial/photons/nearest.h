@@ -113,11 +113,12 @@ struct Unheard {
     void far(bool) {}             ///< When the near subtree is done: is the far child entered?
 };
 
-/// Fills `found` with the nearest photons of `point`; nothing for a point that is not finite or an empty
-/// tree. The pruning is exact in floating point: subtraction, squaring and adding round monotonically, so no
-/// photon behind a split plane can have a smaller computed distance than the plane.
-template <class Listener = Unheard>
-void nearest(const PhotonKd& tree, Vec3 point, NearestSet& found, Listener&& listener = {}) {
+/// Fills `found`, a NearestSet or another that has clear(), offer() and bound2(), with the nearest photons of
+/// `point`; nothing for a point that is not finite or an empty tree. The pruning is exact in floating point:
+/// subtraction, squaring and adding round monotonically, so no photon behind a split plane can have a smaller
+/// computed distance than the plane.
+template <class Found, class Listener = Unheard>
+void nearest(const PhotonKd& tree, Vec3 point, Found& found, Listener&& listener = {}) {
     struct Pending {
         std::uint32_t slot;
         float plane_distance2;

@@ -10,6 +10,7 @@
 #include "spatial/photons/candidate_bits.h"
 #include "spatial/photons/found_walk.h"
 #include "spatial/photons/nearest.h"
+#include "spatial/photons/nearest_facing.h"
 #include "spatial/walk.h"
 
 namespace regather::spatial {
@@ -70,7 +71,33 @@ template <class Tree>
 using RecorderOf = std::conditional_t<std::same_as<Tree, PhotonKd> || std::same_as<Tree, BucketKd>,
                                       WalkRecorder, ListWalkRecorder>;
 
+constexpr std::size_t facing_chunk = 4096;
+
 }  // namespace
+
+Recording record_facing(const PhotonKd& tree, std::span<const Vec3> points, std::span<const Vec3> normals,
+                        float radius) {
+    Recording all;
+    all.walk_bytes.resize(points.size());
+    std::vector<WalkRecorder> chunks((points.size() + facing_chunk - 1) / facing_chunk);
+    std::vector<std::uint64_t> found(chunks.size());
+    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+        NearestFacing facing(tree.nodes(), radius);
+        const std::size_t end = std::min(points.size(), (c + 1) * facing_chunk);
+        for (std::size_t i = c * facing_chunk; i < end; ++i) {
+            facing.look_for(normals[i]);
+            nearest(tree, points[i], facing, chunks[c]);
+            all.walk_bytes[i] = chunks[c].finish();
+            found[c] += facing.found() ? 1 : 0;
+        }
+    });
+    for (std::size_t c = 0; c < chunks.size(); ++c) {
+        all.walks.insert(all.walks.end(), chunks[c].bytes().begin(), chunks[c].bytes().end());
+        all.visited_nodes += chunks[c].visited_nodes();
+        all.found_photons += found[c];
+    }
+    return all;
+}
 
 template <class Tree>
 Recording record_walks(const Tree& tree, std::span<const Vec3> points, std::uint32_t k, float radius,

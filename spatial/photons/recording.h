@@ -39,4 +39,9 @@ template <class Tree>
 Recording record_walks(const Tree& tree, std::span<const Vec3> points, std::uint32_t k, float radius,
                        Telling telling = {});
 
+/// The walks of the nearest photon within `radius` of each point whose surface faces as the point's does
+/// (spatial/photons/nearest_facing.h); `normals` has a row for each point.
+Recording record_facing(const PhotonKd& tree, std::span<const Vec3> points, std::span<const Vec3> normals,
+                        float radius);
+
 }  // namespace regather::spatial
