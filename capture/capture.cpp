@@ -346,10 +346,19 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         result.query_seconds += clock.lap();
         tally.records = irradiance->octree().size();
         tally.octree_bytes = irradiance->octree().bytes();
+        tally.scatter = irradiance->scatter();
+        tally.scatter_of_all = irradiance->scatter_of_all();
+        tally.waiting = irradiance->waiting();
+        result.query_seconds += clock.lap();
         parts.irradiance = &irradiance->octree();
         parts.octree_searches = writers.irradiance != nullptr;
     }
-    trace::TraceInfo octree_info;
+    trace::TraceInfo octree_info, rounds_info, inserts_info;
+    if (irradiance) {
+        write_seeding(irradiance->seeding(), config.pixels.width, {writers.irradiance_rounds, rounds_info},
+                      {writers.irradiance_inserts, inserts_info});
+        result.write_seconds += clock.lap();
+    }
     const QueryPass query_pass(scene, caster, lights, config.pixels, parts);
     Map guide({.k = parse_sampling(config.pixels.sampling).photons_asked()});
     if (writers.guide) {
@@ -429,16 +438,21 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         global.reverse->finish(*writers.reverse, info);
         describe(info, "global", scene, config);
     }
-    if (irradiance && writers.irradiance) {
-        finish_searches(*writers.irradiance, irradiance->octree(), octree_info);
-        octree_info.scene = scene.name;
-        octree_info.frame = config.frame;
-        octree_info.image_width = config.pixels.width;
-        octree_info.image_height = config.pixels.height;
-        octree_info.seed = config.pixels.seed;
-        octree_info.parameters = trace::Json::object({{"capture", parameters(scene, config)}});
-        result.irradiance_info = octree_info;
-    }
+    const auto finish_octree = [&](trace::TraceWriter* writer, trace::TraceInfo& info,
+                                   std::optional<trace::TraceInfo>& to) {
+        if (!irradiance || !writer) return;
+        finish_searches(*writer, irradiance->octree(), info);
+        info.scene = scene.name;
+        info.frame = config.frame;
+        info.image_width = config.pixels.width;
+        info.image_height = config.pixels.height;
+        info.seed = config.pixels.seed;
+        info.parameters = trace::Json::object({{"capture", parameters(scene, config)}});
+        to = info;
+    };
+    finish_octree(writers.irradiance, octree_info, result.irradiance_info);
+    finish_octree(writers.irradiance_rounds, rounds_info, result.irradiance_rounds_info);
+    finish_octree(writers.irradiance_inserts, inserts_info, result.irradiance_inserts_info);
     if (const std::optional<IrradianceTally>& tally = result.irradiance) {
         trace::Json& counts = result.info.counts;
         counts["irradiance_records"] = tally->records;
@@ -448,6 +462,18 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         counts["irradiance_points_served"] = tally->use.served;
         counts["irradiance_points_not_served"] = tally->use.not_served;
         counts["irradiance_rays_saved"] = tally->use.rays_saved;
+        counts["irradiance_scatter"] = tally->scatter;
+        counts["irradiance_scatter_of_all"] = tally->scatter_of_all;
+        const WaitingPixels& waiting = tally->waiting;
+        counts["irradiance_waiting_records"] = waiting.records;
+        counts["irradiance_waiting_records_unheld"] = waiting.records_unheld;
+        counts["irradiance_waiting_points"] = waiting.waited;
+        counts["irradiance_waiting_most"] = waiting.most_waiting;
+        counts["irradiance_waiting_half"] = waiting.half;
+        counts["irradiance_waiting_nine_tenths"] = waiting.nine_tenths;
+        counts["irradiance_waiting_ninety_nine"] = waiting.ninety_nine;
+        counts["irradiance_waiting_longest"] = waiting.longest;
+        counts["irradiance_waiting_stopped"] = waiting.stopped;
     }
     if (const std::optional<RecordError>& error = result.record_error) {
         result.info.counts["packed_farthest"] = error->farthest;

@@ -280,14 +280,7 @@ std::optional<Vec3> PixelPaths::recorded_irradiance(const Shaded& at) {
     if (!parts_.octree_searches) return octree.irradiance(point, octree.tolerance());
     OctreeElements<spatial::ListWalkRecorder> elements{octree_walk_, octree.nodes()};
     const std::optional<Vec3> irradiance = octree.irradiance(point, octree.tolerance(), elements);
-    OctreeSearches& searches = work_.octree_searches;
-    searches.position.push_back(at.position);
-    searches.pixel.push_back(pixel_);
-    searches.walk_bytes.push_back(octree_walk_.finish());
-    const std::span<const std::uint8_t> walk = octree_walk_.bytes();
-    searches.walks.insert(searches.walks.end(), walk.begin(), walk.end());
-    searches.visited += octree_walk_.visited_nodes();
-    octree_walk_.clear();
+    work_.octree_searches.add(at.position, pixel_, octree_walk_);
     return irradiance;
 }
 

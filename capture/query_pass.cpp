@@ -52,6 +52,15 @@ void Rays::clear() {
     extent.clear();
     pixel.clear();
 }
+void OctreeSearches::add(Vec3 at, std::uint32_t of_pixel, spatial::ListWalkRecorder& walk) {
+    position.push_back(at);
+    pixel.push_back(of_pixel);
+    walk_bytes.push_back(walk.finish());
+    walks.insert(walks.end(), walk.bytes().begin(), walk.bytes().end());
+    visited += walk.visited_nodes();
+    walk.clear();
+}
+
 void OctreeSearches::append(const OctreeSearches& other) {
     append_to(position, other.position);
     append_to(pixel, other.pixel);

@@ -12,6 +12,7 @@
 #include "capture/nonfinite.h"
 #include "capture/ray_caster.h"
 #include "capture/sampling/gather_distribution.h"
+#include "spatial/list_walk.h"
 
 namespace regather::capture {
 
@@ -91,6 +92,8 @@ struct OctreeSearches {
     std::vector<std::uint8_t> walks;
     std::uint64_t visited = 0;  ///< Elements.
     std::size_t size() const { return position.size(); }
+    /// Ends the walk, and leaves it empty.
+    void add(Vec3 at, std::uint32_t of_pixel, spatial::ListWalkRecorder& walk);
     void append(const OctreeSearches& other);
 };
 

@@ -15,7 +15,8 @@
 namespace regather::capture {
 namespace {
 
-constexpr std::uint32_t most_spacings = 1'000'000, most_overture = 1024, most_rays = 65536;
+constexpr std::uint32_t most_spacings = 1'000'000, most_overture = 1024, most_rays = 65536,
+                        most_waiting = 1'000'000;
 
 constexpr trace::Parameter tolerance_parameter{
     "tolerance", "20", "[%] Ward's a: a record is used where d / R + sqrt(1 - n.n') is less"};
@@ -28,11 +29,14 @@ constexpr trace::Parameter overture_parameter{"overture", "32",
                                               "two, halved round by round; 1: no overture"};
 constexpr trace::Parameter rays_parameter{"rays", "0",
                                           "a record is made of; 0: as many as a pixel gathers with"};
+constexpr trace::Parameter latency_parameter{
+    "latency", "64", "points that are looked up while a record is computed, where waiting is simulated"};
+constexpr trace::Parameter entries_parameter{"entries", "16", "points that can wait for records at once"};
 constexpr const char* neighbours_help = "1: R is at most a neighbour's and the distance to it";
 
 constexpr trace::Parameter split_sphere_parameters[] = {
     tolerance_parameter, distance_parameter, gradients_parameter, {"neighbours", "0", neighbours_help},
-    overture_parameter,  rays_parameter};
+    overture_parameter,  rays_parameter,     latency_parameter,   entries_parameter};
 constexpr trace::Parameter bounded_parameters[] = {
     tolerance_parameter,
     distance_parameter,
@@ -42,6 +46,8 @@ constexpr trace::Parameter bounded_parameters[] = {
     rays_parameter,
     {"least", "3", "spacings of pixels that a record reaches at least"},
     {"most", "20", "spacings of pixels that a record reaches at most"},
+    latency_parameter,
+    entries_parameter,
 };
 constexpr trace::Parameter hessian_parameters[] = {
     tolerance_parameter,
@@ -49,10 +55,12 @@ constexpr trace::Parameter hessian_parameters[] = {
     {"neighbours", "0", neighbours_help},
     overture_parameter,
     rays_parameter,
-    {"error", "20",
+    {"error", "40",
      "[millionths of the scene's extent squared] what the relative error over a record's disc adds up to"},
-    {"least", "3", "spacings of pixels that a record reaches at least"},
+    {"least", "1", "spacings of pixels that a record reaches at least"},
     {"most", "100", "spacings of pixels that a record reaches at most"},
+    latency_parameter,
+    entries_parameter,
 };
 
 PlaneEllipse circle(double radius) {
@@ -136,6 +144,8 @@ IrradianceCacheSpec parse_irradiance_cache(std::string_view spec) {
     require("neighbours", 0, 1);
     require("rays", 0, most_rays);
     require("overture", 1, most_overture);
+    require("latency", 0, most_waiting);
+    require("entries", 1, most_waiting);
     if (!std::has_single_bit(given.count("overture")))
         throw trace::UsageError(
             fmt::format("{}: overture is {}, expected a power of two", metric.name, given.count("overture")));

@@ -55,6 +55,9 @@ struct IrradianceCacheSpec {
     std::uint32_t rays() const { return parameters.count("rays"); }
     /// Pixels between the points of the first round of seeding, a power of two.
     std::uint32_t overture() const { return parameters.count("overture"); }
+    /// From a record's begin to its end, and places to wait in, as WaitingConfig's.
+    std::uint32_t latency() const { return parameters.count("latency"); }
+    std::uint32_t entries() const { return parameters.count("entries"); }
     /// Whether a record's R is at most a neighbour's and the distance to it (Krivanek et al. 2006).
     bool clamps_neighbours() const { return parameters.count("neighbours") != 0; }
 };

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uint64_t seen_pixels = 4096, hemisphere_points = 32;  // one thread's at a time
 constexpr std::size_t hemisphere_rays = 1 << 19;                     // held at once
+constexpr std::uint32_t tile = 16;                                   // of what is told of neighbouring pixels
 constexpr float least_footprint_cosine = 0.1f;
 
 }  // namespace
@@ -101,6 +102,24 @@ void IrradiancePass::add(std::span<const Vec3> radiance, Nonfinite& nonfinite) {
         if (const std::uint32_t q = query_[i]; q != PixelPaths::no_query)
             incoming_[i].radiance += nonfinite.checked(Stage::gather, factor_[q] * radiance[q]);
     seeding_->add(incoming_);
+}
+
+WaitingPixels IrradiancePass::waiting() const {
+    return waiting_pixels(points_, octree(), scene_.bounds(), {spec_.latency(), spec_.entries(), tile});
+}
+
+double IrradiancePass::scatter() const {
+    std::vector<std::uint8_t> gathers(points_.size());
+    tbb::parallel_for(std::size_t{0}, points_.size(), [&](std::size_t i) {
+        gathers[i] = 1;
+        octree().search(points_[i].point, octree().tolerance(), [&](std::uint32_t) { gathers[i] = 0; });
+    });
+    for (const std::uint32_t point : seeding_->point_of_record()) gathers[point] = 1;
+    return gather_scatter(points_, gathers, tile);
+}
+
+double IrradiancePass::scatter_of_all() const {
+    return gather_scatter(points_, std::vector<std::uint8_t>(points_.size(), 1), tile);
 }
 
 }  // namespace regather::capture

@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "capture/irradiance/gather_scatter.h"
 #include "capture/irradiance/irradiance_seeding.h"
+#include "capture/irradiance/waiting_pixels.h"
 #include "capture/pixel_paths.h"
 
 namespace regather::capture {
@@ -29,6 +31,14 @@ public:
     std::span<const SeedingRound> rounds() const { return seeding_->rounds(); }
     /// Rays a record.
     std::uint32_t rays() const { return grid_.cells(); }
+    const IrradianceSeeding& seeding() const { return *seeding_; }
+
+    /// When all records are made, as if each took a while.
+    WaitingPixels waiting() const;
+    /// When all records are made: gather_scatter() of the points that gather, be it for a record.
+    double scatter() const;
+    /// Of all points: without records.
+    double scatter_of_all() const;
 
 private:
     void find_points();

@@ -16,9 +16,22 @@ IrradianceSeeding::IrradianceSeeding(std::span<const SeedPoint> points, const Ir
     : points_(points),
       spec_(spec),
       grid_(grid),
+      box_(box),
       far_(far),
       octree_(box, spec.tolerance(), spec.clamps_neighbours()),
       step_(std::max(spec.overture(), 1u)) {}
+
+std::vector<std::uint32_t> IrradianceSeeding::points_of_round(std::uint32_t step, bool first) const {
+    const bool last = step == 1;
+    // In the overture a grid's points of the grid before have been looked up there.
+    const auto is_on = [](const SeedPoint& at, std::uint32_t of) {
+        return at.column % of == 0 && at.row % of == 0;
+    };
+    std::vector<std::uint32_t> points;
+    for (std::uint32_t i = 0; i < points_.size(); ++i)
+        if (is_on(points_[i], step) && (first || last || !is_on(points_[i], 2 * step))) points.push_back(i);
+    return points;
+}
 
 bool IrradianceSeeding::next(std::vector<std::uint32_t>& wanted) {
     wanted.clear();
@@ -26,13 +39,7 @@ bool IrradianceSeeding::next(std::vector<std::uint32_t>& wanted) {
     const std::uint32_t step = step_;
     const bool first = rounds_.empty(), last = step == 1;
     SeedingRound round{step, last ? spec_.tolerance() : spec_.tolerance() / 2, 0, 0};
-    // In the overture a grid's points of the grid before have been looked up there.
-    const auto is_on = [](const SeedPoint& at, std::uint32_t of) {
-        return at.column % of == 0 && at.row % of == 0;
-    };
-    std::vector<std::uint32_t> asked;
-    for (std::uint32_t i = 0; i < points_.size(); ++i)
-        if (is_on(points_[i], step) && (first || last || !is_on(points_[i], 2 * step))) asked.push_back(i);
+    const std::vector<std::uint32_t> asked = points_of_round(step, first);
     std::vector<std::uint8_t> is_served(asked.size());
     tbb::parallel_for(std::size_t{0}, asked.size(), [&](std::size_t i) {
         octree_.search(points_[asked[i]].point, round.tolerance, [&](std::uint32_t) { is_served[i] = 1; });
@@ -58,6 +65,8 @@ void IrradianceSeeding::add(std::span<const Incoming> incoming) {
     });
     if (made_.size() < wanted_.size()) return;
     for (const IrradianceRecord& record : made_) octree_.insert(record);
+    point_of_record_.insert(point_of_record_.end(), wanted_.begin(), wanted_.end());
+    unclamped_.insert(unclamped_.end(), made_.begin(), made_.end());
 }
 
 void seed(IrradianceSeeding& seeding, const HemisphereGrid& grid, const HemisphereGather& gather) {

@@ -44,19 +44,46 @@ public:
     void add(std::span<const Incoming> incoming);
 
     const IrradianceOctree& octree() const { return octree_; }
+    const SeedPoint& point(std::uint32_t number) const { return points_[number]; }
+    /// By record: its point's number.
+    std::span<const std::uint32_t> point_of_record() const { return point_of_record_; }
+
+    /// All that was looked up and inserted once more, in an octree that grows again as this one did. `lookup`
+    /// and `insertion` are called with a point's number and a function that does it and tells a listener what
+    /// it touches; the points of a round ascending, then its records as they come. Not before the end.
+    template <class Lookup, class Insertion>
+    void tell_again(Lookup&& lookup, Insertion&& insertion) const {
+        IrradianceOctree octree(box_, spec_.tolerance(), spec_.clamps_neighbours());
+        std::size_t record = 0;
+        for (std::size_t r = 0; r < rounds_.size(); ++r) {
+            for (const std::uint32_t number : points_of_round(rounds_[r].step, r == 0))
+                lookup(number, [&](auto& listener) {
+                    octree.search(
+                        points_[number].point, rounds_[r].tolerance, [](std::uint32_t) {}, listener);
+                });
+            for (const std::size_t end = record + rounds_[r].gathered; record < end; ++record)
+                insertion(point_of_record_[record],
+                          [&](auto& listener) { octree.insert(unclamped_[record], listener); });
+        }
+    }
     /// As far as they have come.
     std::span<const SeedingRound> rounds() const { return rounds_; }
 
 private:
+    std::vector<std::uint32_t> points_of_round(std::uint32_t step, bool first) const;
+
     std::span<const SeedPoint> points_;
     const IrradianceCacheSpec& spec_;
     const HemisphereGrid& grid_;
+    const trace::Bounds3 box_;
     const double far_;
     IrradianceOctree octree_;
     std::uint32_t step_;  // of the round to come; 0: none comes
     std::vector<SeedingRound> rounds_;
     std::vector<std::uint32_t> wanted_;
     std::vector<IrradianceRecord> made_;  // of the first of wanted_
+    std::vector<std::uint32_t> point_of_record_;
+    std::vector<IrradianceRecord> unclamped_;  // as they were inserted
 };
 
 /// Writes the samples of the grid's cells about a point of a number. Called by any number of threads.

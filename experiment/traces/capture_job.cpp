@@ -57,14 +57,32 @@ std::string irradiance_figures(const trace::TraceInfo& info) {
         return static_cast<std::uint64_t>(info.counts.find(name)->number());
     };
     const std::uint64_t served = count("irradiance_points_served"),
-                        points = served + count("irradiance_points_not_served");
+                        points = served + count("irradiance_points_not_served"),
+                        records = count("irradiance_records"), rays = count("irradiance_rays");
+    const auto share = [](std::uint64_t part, std::uint64_t of) {
+        return static_cast<double>(part) / static_cast<double>(std::max<std::uint64_t>(of, 1));
+    };
     return fmt::format(
-        "  irradiance cache: {} records of {} rays and {} queries in all, an octree of {} bytes; {} of {} "
-        "points served ({:.2f} %), {} gather rays saved\n",
-        count("irradiance_records"), count("irradiance_rays"), count("irradiance_queries"),
-        count("irradiance_octree_bytes"), served, points,
-        points > 0 ? 100 * static_cast<double>(served) / static_cast<double>(points) : 0.0,
-        count("irradiance_rays_saved"));
+               "  irradiance cache: {} records of {} rays and {} queries in all, an octree of {} bytes; {} "
+               "of "
+               "{} points served ({:.2f} %), hit rate {:.2f} %, {} gather rays saved, {:.1f} for one of a "
+               "record\n",
+               records, rays, count("irradiance_queries"), count("irradiance_octree_bytes"), served, points,
+               100 * share(served, points), 100 * share(served - std::min(records, served), points),
+               count("irradiance_rays_saved"), share(count("irradiance_rays_saved"), rays)) +
+           fmt::format(
+               "  from one gather origin to the next of a tile: {:.3f} of its extent, {:.3f} without "
+               "records\n",
+               info.counts.find("irradiance_scatter")->number(),
+               info.counts.find("irradiance_scatter_of_all")->number()) +
+           fmt::format(
+               "  if records took a while: {} begun, {} without a place to wait; {} points wait, at "
+               "most {} at once, half of them at most {}, 90 % {}, 99 % {}, all {}; {} stopped\n",
+               count("irradiance_waiting_records"), count("irradiance_waiting_records_unheld"),
+               count("irradiance_waiting_points"), count("irradiance_waiting_most"),
+               count("irradiance_waiting_half"), count("irradiance_waiting_nine_tenths"),
+               count("irradiance_waiting_ninety_nine"), count("irradiance_waiting_longest"),
+               count("irradiance_waiting_stopped"));
 }
 
 std::string octree_figures(const trace::TraceInfo& info) {
@@ -91,8 +109,11 @@ struct Files {
           guide_trace(folder / "guide-trace"),
           precompute_trace(folder / "precompute-trace"),
           reverse_trace(folder / "reverse-trace"),
-          irradiance_trace(folder / "irradiance-trace") {}
-    fs::path exr, png, trace, caustic_trace, guide_trace, precompute_trace, reverse_trace, irradiance_trace;
+          irradiance_trace(folder / "irradiance-trace"),
+          irradiance_rounds(folder / "irradiance-rounds"),
+          irradiance_inserts(folder / "irradiance-inserts") {}
+    fs::path exr, png, trace, caustic_trace, guide_trace, precompute_trace, reverse_trace, irradiance_trace,
+        irradiance_rounds, irradiance_inserts;
 };
 
 /// What is said of a finished capture of the same; nothing when there is none.
@@ -143,14 +164,17 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
         return wanted ? &*further : nullptr;
     };
     std::optional<trace::TraceWriter> caustic_writer, guide_writer, precompute_writer, reverse_writer,
-        irradiance_writer;
+        irradiance_writer, rounds_writer, inserts_writer;
+    const bool has_records = capture::has_irradiance_cache(config);
     const capture::TraceWriters writers{
         &writer,
         further_trace(caustic_writer, has_caustics, files.caustic_trace),
         further_trace(guide_writer, capture::has_guide(config), files.guide_trace),
         further_trace(precompute_writer, capture::has_precomputation(config), files.precompute_trace),
         further_trace(reverse_writer, config.reverse_pixels > 0, files.reverse_trace),
-        further_trace(irradiance_writer, capture::has_irradiance_cache(config), files.irradiance_trace)};
+        further_trace(irradiance_writer, has_records, files.irradiance_trace),
+        further_trace(rounds_writer, has_records, files.irradiance_rounds),
+        further_trace(inserts_writer, has_records, files.irradiance_inserts)};
     const std::string shown = trace::shown(scene.name);
     const std::string name = config.frame ? fmt::format("{}, frame {}", shown, *config.frame) : shown;
     config.progress = [&](std::string_view stage, std::uint64_t done, std::uint64_t total) {
@@ -168,6 +192,8 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
     if (precompute_writer) precompute_writer->finish(*captured.precompute_info);
     if (reverse_writer) reverse_writer->finish(*captured.reverse_info);
     if (irradiance_writer) irradiance_writer->finish(*captured.irradiance_info);
+    if (rounds_writer) rounds_writer->finish(*captured.irradiance_rounds_info);
+    if (inserts_writer) inserts_writer->finish(*captured.irradiance_inserts_info);
     writer.finish(captured.info);
 
     std::string report =
@@ -194,7 +220,9 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
     if (precompute_writer)
         report += fmt::format("  precomputation's trace: {}\n", files.precompute_trace.string());
     if (reverse_writer) report += fmt::format("  photons' trace: {}\n", files.reverse_trace.string());
-    if (irradiance_writer) report += fmt::format("  octree's trace: {}\n", files.irradiance_trace.string());
+    if (irradiance_writer)
+        report += fmt::format("  octree's traces: {}, {}, {}\n", files.irradiance_trace.string(),
+                              files.irradiance_rounds.string(), files.irradiance_inserts.string());
     return report;
 }
 

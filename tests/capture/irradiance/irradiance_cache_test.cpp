@@ -87,9 +87,10 @@ TEST(IrradianceCache, CountsAddUpAndWeightsAreThoseOfThePixel) {
     EXPECT_EQ(trace.column<Vec3>("ray_gather_origin").size(), count(found.info.counts, "gather_rays"));
     EXPECT_LE(count(found.info.counts, "irradiance_queries"), records * cells);
     EXPECT_GT(count(found.info.counts, "irradiance_octree_bytes"), 132 * records);
-    EXPECT_EQ(
-        *trace.info().parameters.find("irradiance_cache")->text(),
-        "bounded:tolerance=20,distance=harmonic,gradients=1,neighbours=1,overture=16,rays=0,least=3,most=20");
+    EXPECT_EQ(*trace.info().parameters.find("irradiance_cache")->text(),
+              "bounded:tolerance=20,distance=harmonic,gradients=1,neighbours=1,overture=16,rays=0,least=3,"
+              "most=20,latency=64,"
+              "entries=16");
     // The first record's queries: albedo / rays each.
     const auto weights = trace.column<Vec3>("query_weight");
     for (std::size_t i = 0; i < 40; ++i) EXPECT_NEAR(weights[i].y, 0.5 / 48, 1e-7);
@@ -163,6 +164,32 @@ TEST(IrradianceCache, IsRefusedWhereItCannotBeObeyed) {
     EXPECT_THROW(capture(closed_box(0.5), packed), trace::UsageError);
     EXPECT_THROW(capture(closed_box(0.5), cached("bonded")), trace::UsageError);
     EXPECT_THROW(capture(closed_box(0.5), cached("bounded:rays=65537")), trace::UsageError);
+}
+
+TEST(IrradianceCache, RoundsAndInsertionsHaveTracesOfTheirOwn) {
+    const Scratch scratch;
+    const CaptureConfig config = cached("bounded:overture=4,latency=5,entries=2");
+    trace::TraceWriter of_rounds(scratch / "rounds", false), of_inserts(scratch / "inserts", false);
+    Captured found = capture(closed_box(0.5), config,
+                             {.irradiance_rounds = &of_rounds, .irradiance_inserts = &of_inserts});
+    of_rounds.finish(*found.irradiance_rounds_info);
+    of_inserts.finish(*found.irradiance_inserts_info);
+    EXPECT_EQ(found.image.pixels, capture(closed_box(0.5), config).image.pixels);
+    trace::TraceReader rounds(scratch / "rounds"), inserts(scratch / "inserts");
+    const IrradianceUse& use = found.irradiance->use;
+    EXPECT_EQ(inserts.info().queries, found.irradiance->records);
+    // The last round asks all points, the overture those of every fourth, then of every second pixel.
+    EXPECT_GT(rounds.info().queries, use.served + use.not_served);
+    EXPECT_LT(rounds.info().queries, 2 * (use.served + use.not_served));
+    const spatial::Listed structure("visits", spatial::open_elements(inserts));
+    EXPECT_EQ(structure.range_of(trace::Region::irradiance).count, found.irradiance->records);
+    for (const std::uint32_t pixel : inserts.column<std::uint32_t>("query_pixel")) EXPECT_LT(pixel, 36u * 26);
+    const WaitingPixels& waiting = found.irradiance->waiting;
+    EXPECT_EQ(waiting.points, use.served + use.not_served);
+    EXPECT_LE(waiting.records, waiting.records_unheld);
+    EXPECT_LE(waiting.most_waiting, 2u);
+    EXPECT_LE(waiting.longest, 5u);
+    EXPECT_GT(found.irradiance->scatter, found.irradiance->scatter_of_all) << "fewer gathers lie apart";
 }
 
 }  // namespace

@@ -157,6 +157,41 @@ TEST(IrradianceSeeding, LargeWallsNeedFewRecords) {
     EXPECT_LT(error / sum, 0.03);
 }
 
+// The same lookups and insertions in an octree that a brute force of the records so far would build.
+TEST(IrradianceSeeding, WhatHappenedIsToldAgainAsItHappened) {
+    const Seen seen;
+    const IrradianceCacheSpec spec = parse_irradiance_cache("bounded:neighbours=1,overture=4");
+    IrradianceSeeding seeding = seen.seeding(spec);
+    seen.run(seeding);
+    struct Touched {
+        std::vector<std::uint32_t> nodes, records;
+        void node(std::uint32_t number) { nodes.push_back(number); }
+        void record(std::uint32_t number) { records.push_back(number); }
+    };
+    std::uint32_t lookups = 0, records = 0;
+    seeding.tell_again(
+        [&](std::uint32_t, auto&& repeat) {
+            Touched touched;
+            repeat(touched);
+            ++lookups;
+            ASSERT_EQ(touched.nodes.at(0), 0u);
+            for (const std::uint32_t r : touched.records) EXPECT_LT(r, records) << "not yet there";
+        },
+        [&](std::uint32_t point, auto&& repeat) {
+            Touched touched;
+            repeat(touched);
+            ASSERT_EQ(touched.records.back(), records) << "the new one, behind those that clamping reads";
+            EXPECT_EQ(seeding.octree().record(records).position, seen.points[point].point.position);
+            EXPECT_EQ(std::count(touched.nodes.begin(), touched.nodes.end(), 0u), 2) << "to clamp, to insert";
+            ++records;
+        });
+    std::uint64_t asked = 0;
+    for (const SeedingRound& round : seeding.rounds()) asked += round.asked;
+    EXPECT_EQ(lookups, asked);
+    EXPECT_EQ(records, seeding.octree().size());
+    EXPECT_EQ(seeding.point_of_record().size(), records);
+}
+
 TEST(IrradianceSeeding, NoPointsNoRecords) {
     const IrradianceCacheSpec spec = parse_irradiance_cache("bounded:overture=1");
     const HemisphereGrid grid(2, 6);

@@ -1,0 +1,47 @@
+#!/bin/sh
+# make.sh REGATHER OUT [PART...]: makes the rows of this folder again (but box.csv, of the built-in ladders: docs/converge.md), in OUT/results.
+# Parts: references, techniques (four seeds), strategies (twelve seeds, photons held), charts; all of them when none is named. Seconds are
+# of this machine: nothing else should run beside `techniques`. What is there already is not measured again.
+set -eu
+here=$(realpath "$(dirname "$0")")
+regather=$(realpath "$1")
+ladders=$(realpath "$here/../../scenes/experiments")
+mkdir -p "$2/results"
+cd "$2"
+shift 2
+parts=${*:-references techniques strategies charts}
+scenes="cornell room house arena caustics prism meadow keyhole apartment"
+
+# Of Debian's sweethome3d (make scenes-packages).
+[ -e apartment/scene.json ] ||
+    "$regather" import sweethome3d /usr/share/sweethome3d/sweethome3d.jar --home 2BedroomApartment -o apartment > /dev/null
+file_of() { [ "$1" = apartment ] && echo apartment/scene.json || echo "$1"; }
+
+# ladder NAME SEEDS: all scenes on that ladder.
+ladder() {
+    for scene in $scenes; do
+        "$regather" converge "$(file_of $scene)" -o "$1/$scene" --reference "reference/$scene" --ladder "$ladders/$1-ladder.csv" \
+            --seeds "$2" --seconds 10000 > "$1-$scene.txt"
+        for kind in csv json; do cp "$1/$scene/converge.$kind" "results/$1-$scene.$kind"; done
+        echo "$(date +%T) $1 $scene"
+    done
+}
+
+for part in $parts; do
+    case $part in
+    references)
+        for scene in $scenes; do
+            "$regather" reference "$(file_of $scene)" -o "reference/$scene" --width 64 --height 64 --seconds 100 > /dev/null
+        done ;;
+    techniques) ladder techniques 4 ;;
+    strategies) ladder strategies 12 ;;
+    charts)
+        for scene in $scenes; do
+            "$regather" chart "results/techniques-$scene.csv" -o charts --kind error-by-time --force > /dev/null
+            mv charts/error-by-time.svg "results/techniques-$scene.svg"
+        done
+        "$regather" chart results/techniques-*.csv -o charts --kind time-to-error --force > /dev/null
+        mv charts/time-to-error.svg results ;;
+    *) echo "make.sh: unknown part $part" >&2; exit 2 ;;
+    esac
+done
