@@ -16,6 +16,8 @@ constexpr Column convergence_columns[] = {
     column<&ConvergenceRow::samples, ConvergenceRow>("samples"),
     column<&ConvergenceRow::sampling, ConvergenceRow>("sampling"),
     column<&ConvergenceRow::irradiance_cache, ConvergenceRow>("irradiance_cache"),
+    column<&ConvergenceRow::precompute_every, ConvergenceRow>("precompute_every"),
+    column<&ConvergenceRow::reverse_pixels, ConvergenceRow>("reverse_pixels"),
     column<&ConvergenceRow::photon_seed, ConvergenceRow>("photon_seed"),
     column<&ConvergenceRow::shadow_rays>("shadow_rays"),
     column<&ConvergenceRow::width>("width"),
@@ -62,6 +64,8 @@ constexpr Column ladder_columns[] = {
     column<&LadderRow::samples>("samples"),
     column<&LadderRow::sampling>("sampling"),
     column<&LadderRow::irradiance_cache>("irradiance_cache"),
+    column<&LadderRow::precompute_every>("precompute_every"),
+    column<&LadderRow::reverse_pixels>("reverse_pixels"),
     column<&LadderRow::photon_seed>("photon_seed"),
 };
 

@@ -18,7 +18,9 @@ struct LadderRow {
     Count caustic_photons, samples;
     std::string sampling;          ///< Of gather rays: a strategy's spec.
     std::string irradiance_cache;  ///< A metric's spec; empty: none.
-    Count photon_seed;             ///< All images have photons of this seed; empty: each its own.
+    Count precompute_every;        ///< Irradiance is precomputed at every so many photons; empty: gathered.
+    Count reverse_pixels;  ///< Photons search the hit points of so many pixels; empty: the other way round.
+    Count photon_seed;     ///< All images have photons of this seed; empty: each its own.
 };
 
 struct ConvergenceRow : LadderRow {

@@ -33,6 +33,8 @@ std::string setting_text(const ConvergenceRow& row) {
     if (!row.sampling.empty()) out += fmt::format(", {}", row.sampling.substr(0, row.sampling.find(':')));
     if (!row.irradiance_cache.empty())
         out += fmt::format(", {}", row.irradiance_cache.substr(0, row.irradiance_cache.find(':')));
+    if (row.precompute_every) out += ", precomputed";
+    if (row.reverse_pixels) out += ", reverse";
     return out;
 }
 
@@ -41,7 +43,7 @@ std::string setting_text(const ConvergenceRow& row) {
 auto all_but_sampling(const ConvergenceRow& row) {
     return std::tie(row.scene, row.reference, row.width, row.height, row.seeds, row.mode, row.gather_rays,
                     row.photons, row.k, row.radius, row.caustic_photons, row.samples, row.shadow_rays,
-                    row.irradiance_cache, row.photon_seed);
+                    row.irradiance_cache, row.precompute_every, row.reverse_pixels, row.photon_seed);
 }
 
 bool is_cosine(const ConvergenceRow& row) {

@@ -72,6 +72,8 @@ capture::CaptureConfig capture_config(const Setting& setting, const ConvergenceC
     out.gather.k = setting.k;
     out.gather.radius = static_cast<float>(setting.radius);
     out.caustic.photons = setting.caustic_photons;
+    out.precompute_every = setting.precompute_every;
+    out.reverse_pixels = setting.reverse_pixels;
     out.columns = {.rays = false, .direction = false, .leaf_kd = false, .leaf_bvh = false, .stratum = false};
     return out;
 }
@@ -135,6 +137,8 @@ void Convergence::describe(results::ConvergenceRow& row, const Setting& setting)
     row.samples = setting.samples;
     row.sampling = setting.sampling;
     row.irradiance_cache = setting.irradiance_cache;
+    if (setting.precompute_every > 0) row.precompute_every = setting.precompute_every;
+    if (setting.reverse_pixels > 0) row.reverse_pixels = setting.reverse_pixels;
     row.photon_seed = setting.photon_seed;
     row.shadow_rays = config_.shadow_rays;
     row.width = config_.width;
@@ -157,7 +161,8 @@ bool Convergence::holds(const results::ConvergenceRow& row, const Setting& setti
     describe(own, setting);
     const auto key = [](const results::ConvergenceRow& r) {
         return std::tie(r.ladder, r.mode, r.gather_rays, r.photons, r.k, r.radius, r.caustic_photons,
-                        r.samples, r.sampling, r.irradiance_cache, r.photon_seed);
+                        r.samples, r.sampling, r.irradiance_cache, r.precompute_every, r.reverse_pixels,
+                        r.photon_seed);
     };
     return row.total_seconds && row.rmse && belongs(row) && key(row) == key(own);
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "capture/irradiance/irradiance_metric.h"
 #include "capture/sampling/gather_distribution.h"
@@ -149,6 +150,18 @@ std::vector<Setting> parse_ladder(std::string_view text, std::string_view file) 
                        "an empty cell: without gather rays there are no records");
             setting.irradiance_cache = irradiance_cache_of(row.irradiance_cache, refuse);
         }
+        for (const auto& [column, cell, value] :
+             {std::tuple("precompute_every", row.precompute_every, &setting.precompute_every),
+              std::tuple("reverse_pixels", row.reverse_pixels, &setting.reverse_pixels)}) {
+            if (!cell) continue;
+            if (setting.mode == capture::Visualisation::direct || setting.gather_rays == 0)
+                refuse(column, fmt::to_string(*cell),
+                       "an empty cell: without gather rays nothing is gathered");
+            take(column, cell, *value, 1, most_photons);
+        }
+        if (setting.reverse_pixels > 0 && (setting.precompute_every > 0 || !setting.irradiance_cache.empty()))
+            refuse("reverse_pixels", fmt::to_string(setting.reverse_pixels),
+                   "an empty cell beside precompute_every and irradiance_cache");
         setting.photon_seed = row.photon_seed;
         if (row.radius) {
             if (*row.radius <= 0)

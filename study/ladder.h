@@ -18,6 +18,7 @@ struct Setting {
     std::uint32_t caustic_photons = 50'000, samples = 4;
     std::string sampling;          ///< Spec with all parameters; empty: the default strategy.
     std::string irradiance_cache;  ///< Spec with all parameters; empty: none.
+    std::uint32_t precompute_every = 0, reverse_pixels = 0;  ///< As in CaptureConfig; 0: not.
     /// All images have the photons of this seed, so that they differ by what pixels draw alone; none: each
     /// has its own.
     std::optional<std::uint64_t> photon_seed;

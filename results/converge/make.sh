@@ -10,31 +10,33 @@ mkdir -p "$2/results"
 cd "$2"
 shift 2
 parts=${*:-references techniques strategies charts}
-scenes="cornell room house arena caustics prism meadow keyhole apartment"
+scenes="cornell room house arena caustics prism meadow apartment"
 
 # Of Debian's sweethome3d (make scenes-packages).
 [ -e apartment/scene.json ] ||
     "$regather" import sweethome3d /usr/share/sweethome3d/sweethome3d.jar --home 2BedroomApartment -o apartment > /dev/null
 file_of() { [ "$1" = apartment ] && echo apartment/scene.json || echo "$1"; }
 
-# ladder NAME SEEDS: all scenes on that ladder.
+# ladder NAME SEEDS SCENE...: the scenes on that ladder.
 ladder() {
-    for scene in $scenes; do
-        "$regather" converge "$(file_of $scene)" -o "$1/$scene" --reference "reference/$scene" --ladder "$ladders/$1-ladder.csv" \
-            --seeds "$2" --seconds 10000 > "$1-$scene.txt"
-        for kind in csv json; do cp "$1/$scene/converge.$kind" "results/$1-$scene.$kind"; done
-        echo "$(date +%T) $1 $scene"
+    name=$1 seeds=$2
+    shift 2
+    for scene in "$@"; do
+        "$regather" converge "$(file_of "$scene")" -o "$name/$scene" --reference "reference/$scene" --ladder "$ladders/$name-ladder.csv" \
+            --seeds "$seeds" --seconds 10000 > "$name-$scene.txt"
+        for kind in csv json; do cp "$name/$scene/converge.$kind" "results/$name-$scene.$kind"; done
+        echo "$(date +%T) $name $scene"
     done
 }
 
 for part in $parts; do
     case $part in
     references)
-        for scene in $scenes; do
+        for scene in $scenes keyhole; do
             "$regather" reference "$(file_of $scene)" -o "reference/$scene" --width 64 --height 64 --seconds 100 > /dev/null
         done ;;
-    techniques) ladder techniques 4 ;;
-    strategies) ladder strategies 12 ;;
+    techniques) ladder techniques 4 $scenes ;;
+    strategies) ladder strategies 12 arena caustics keyhole cornell room ;;
     charts)
         for scene in $scenes; do
             "$regather" chart "results/techniques-$scene.csv" -o charts --kind error-by-time --force > /dev/null

@@ -46,7 +46,9 @@ TEST(ParseLadder, EmptyCellsTakeTheDefaults) {
 
 TEST(ParseLadder, SpecsHaveAllTheirParametersAndPhotonsAreHeld) {
     const auto found = parse_ladder(
-        "ladder,sampling,irradiance_cache,photon_seed\nmine,brdf,bounded,7\nmine,cosine,,\n", "l.csv");
+        "ladder,sampling,irradiance_cache,photon_seed,precompute_every,reverse_pixels\n"
+        "mine,brdf,bounded,7,3,\nmine,cosine,,,,64\n",
+        "l.csv");
     ASSERT_EQ(found.size(), 2u);
     EXPECT_EQ(found[0].sampling, "");  // the default
     EXPECT_EQ(found[0].irradiance_cache.substr(0, 8), "bounded:");
@@ -57,6 +59,9 @@ TEST(ParseLadder, SpecsHaveAllTheirParametersAndPhotonsAreHeld) {
     const capture::CaptureConfig held = capture_config(found[0], config, 3);
     EXPECT_EQ(held.photon.seed, 7u);
     EXPECT_EQ(held.pixels.seed, 3u);
+    EXPECT_EQ(held.precompute_every, 3u);
+    EXPECT_EQ(held.reverse_pixels, 0u);
+    EXPECT_EQ(capture_config(found[1], config, 3).reverse_pixels, 64u);
     EXPECT_EQ(held.pixels.irradiance_cache, found[0].irradiance_cache);
     EXPECT_EQ(capture_config(found[1], config, 3).photon.seed, 3u);
 }
@@ -65,7 +70,9 @@ TEST(ParseLadder, RefusesWhatNoRendererCanDo) {
     for (const char* text :
          {"ladder,k\nmine,0\n", "ladder,mode\nmine,fast\n", "ladder\n", "k\n5\n", "ladder,radius\nmine,0\n",
           "ladder,k\n,5\n", "ladder\n../mine\n", "ladder,irradiance_cache\nmine,none\n",
-          "ladder,mode,irradiance_cache\nmine,direct,bounded\n", "ladder\n\"mi\nne\"\n"})
+          "ladder,mode,irradiance_cache\nmine,direct,bounded\n",
+          "ladder,gather_rays,precompute_every\nmine,0,1\n",
+          "ladder,precompute_every,reverse_pixels\nmine,1,64\n", "ladder\n\"mi\nne\"\n"})
         EXPECT_THROW(parse_ladder(text, "l.csv"), trace::DataError) << text;
 }
 
