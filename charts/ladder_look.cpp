@@ -18,11 +18,24 @@ struct LadderStyle {
 };
 // Okabe & Ito's colours, as of the orderings in series.cpp.
 constexpr LadderStyle styles_table[] = {
-    {"gather-rays", "#0072b2", 7},    {"samples", "#56b4e9", 11},
-    {"photons", "#d55e00", 5},        {"k", "#009e73", 9},
-    {"radius", "#882255", 13},        {"caustic-photons", "#e69f00", 15},
-    {"direct-photons", "#d55e00", 4}, {"direct-k", "#009e73", 8},
+    {"gather-rays", "#0072b2", 7},
+    {"samples", "#56b4e9", 11},
+    {"photons", "#d55e00", 5},
+    {"k", "#009e73", 9},
+    {"radius", "#882255", 13},
+    {"caustic-photons", "#e69f00", 15},
+    {"direct-photons", "#d55e00", 4},
+    {"direct-k", "#009e73", 8},
     {"direct-both", "#cc79a7", 6},
+    // Techniques, of scenes/experiments/techniques-ladder.csv.
+    {"cosine", "#777777", 6},
+    {"brdf", "#0072b2", 7},
+    {"combined", "#009e73", 9},
+    {"mis", "#44aa99", 8},
+    {"lobes", "#117733", 13},
+    {"bounded", "#aa4499", 11},
+    {"hessian", "#882255", 15},
+    {"precomputed", "#e69f00", 12},
 };
 constexpr std::string_view spare[] = {"#332288", "#44aa99", "#aa4499", "#661100", "#6699cc", "#117733"};
 
