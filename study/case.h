@@ -37,6 +37,7 @@ std::vector<Case> stiff_transport_cases();
 std::vector<Case> long_sum_cases();
 std::vector<Case> peaked_lobe_cases();
 std::vector<Case> sampler_cases();
+std::vector<Case> guide_cases();
 std::vector<Case> leak_cases();
 std::vector<Case> degenerate_geometry_cases();
 std::vector<Case> degenerate_map_cases();

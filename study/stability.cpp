@@ -20,6 +20,8 @@ constexpr CaseGroup groups[] = {
     {"sums", "a billion contributions", long_sum_cases},
     {"lobes", "exponents 1 .. 1e6, grazing angles, indices of refraction 1.0001 and 5", peaked_lobe_cases},
     {"samplers", "chi-squared tests of every sampler", sampler_cases},
+    {"guides", "gather rays guided by no photons, by powerless ones, by all from one direction, from below",
+     guide_cases},
     {"leaks", "rays in closed boxes: how many leave", leak_cases},
     {"geometry", "slivers, duplicates, coincident walls, touching lights, cameras on surfaces",
      degenerate_geometry_cases},

@@ -94,21 +94,22 @@ constexpr trace::Parameter scattering_parameters[] = {
 
 std::span<const SamplingStrategy> table() {
     static const SamplingStrategy all[] = {
-        {"uniform", "every direction above the surface alike", {}, make<Uniform>},
-        {"cosine", "by the cosine of the angle to the normal", {}, make<Cosine>},
+        {"uniform", "every direction above the surface alike", {}, make<Uniform>, cost_of_uniform},
+        {"cosine", "by the cosine of the angle to the normal", {}, make<Cosine>, cost_of_cosine},
         {"brdf", "as the surface scatters: diffuse by the cosine, glossy by the two lobes of its material",
-         scattering_parameters, make<Scattering>},
+         scattering_parameters, make<Scattering>, cost_of_scattering},
         {"incident", "by where the photons about the point came from, at least the floor of the cosine",
-         incident_parameters(), make_incident},
-        {"combined", "by the same table times the BRDF", incident_parameters(), make_combined},
+         incident_parameters(), make_incident, cost_of_incident},
+        {"combined", "by the same table times the BRDF", incident_parameters(), make_combined,
+         cost_of_combined},
         {"footprints", "by discs about where the photons came from, smaller where more did",
-         footprint_parameters(), make_footprints},
+         footprint_parameters(), make_footprints, cost_of_footprints},
         {"lobes", "by a mixture of von Mises-Fisher lobes fitted to those photons, times the cosine",
-         lobe_parameters(), make_lobes},
+         lobe_parameters(), make_lobes, cost_of_lobes},
         {"mis", "by the BRDF or by that table, each weighted (Veach & Guibas 1995)", mixture_parameters(),
-         make_mixture},
+         make_mixture, cost_of_mixture},
         {"oracle", "by a table of the light that gather rays would find: a ceiling, at any cost",
-         oracle_parameters(), make_oracle},
+         oracle_parameters(), make_oracle, cost_of_oracle},
     };
     return all;
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "capture/bsdf.h"
+#include "capture/sampling/operations.h"
 #include "capture/sampling/photon_guide.h"
 #include "capture/strata.h"
 #include "trace/parameters.h"
@@ -48,6 +49,8 @@ struct SamplingStrategy {
     std::span<const trace::Parameter> parameters;
     /// The guide outlives the distribution.
     std::unique_ptr<GatherDistribution> (*make)(const trace::Parameters& given, const PhotonGuide& guide);
+    /// For a point of a diffuse or a glossy surface.
+    SamplingCost (*cost)(const trace::Parameters& given, bool glossy);
 };
 
 /// The strategy default_sampling.
@@ -68,6 +71,7 @@ struct SamplingSpec {
     std::unique_ptr<GatherDistribution> make(const PhotonGuide& guide) const {
         return strategy->make(parameters, guide);
     }
+    SamplingCost cost(bool glossy) const { return strategy->cost(parameters, glossy); }
     /// Of the gather rays of a point. All strategies have even ones but the default, whose pictures stay the
     /// bytes that they were, unless it is asked.
     StrataShape strata() const;

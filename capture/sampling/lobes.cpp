@@ -17,7 +17,7 @@ constexpr trace::Parameter lobe_keys[] = {
     {"k", "400", "photons that are asked"},
     {"floor", "10",
      "[%] of the density that looks at no photon: light from where no photon came is found, too"},
-    {"iterations", "6", "of expectation and maximisation, from lobes that are spread evenly"},
+    {"iterations", "4", "of expectation and maximisation, from lobes that are spread evenly"},
     {"shrink", "1", "1: the mixture goes towards the cosine as far as so few photons may differ by chance"},
 };
 
