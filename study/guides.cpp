@@ -120,8 +120,8 @@ Case unbiased(const std::string& spec, const Situation& situation, float exponen
 std::vector<Case> guide_cases() {
     std::vector<Case> cases;
     for (const std::string& spec :
-         {std::string("incident"), std::string("lobes"), std::string("lobes:lobes=16,shrink=0,floor=2"),
-          std::string("footprints"), std::string("footprints:neighbours=1,floor=2")})
+         {std::string("incident"), std::string("lobes"), std::string("lobes:lobes=16,shrink=0,floor=5"),
+          std::string("footprints"), std::string("footprints:neighbours=1,floor=5")})
         for (const Situation& situation : situations) cases.push_back(unbiased(spec, situation, 0, 0));
     for (const std::string& spec : {std::string("combined"), std::string("mis"), std::string("oracle")})
         for (const float exponent : {1.0f, 1e6f})

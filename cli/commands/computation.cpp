@@ -50,6 +50,10 @@ void add_computation(Command& command) {
         "the folder of a capture or its trace, and traces of its rays (walk --rays KIND), for what "
         "a ray visits; none: the paper's table");
     command.comma_list("--set", options->job.settings, "NAME=VALUE: a parameter in place of what is counted");
+    command.option(
+        "--sampling", options->job.sampling,
+        "what a strategy of gather rays (capture --sampling) keeps and computes, and its FLOP in the "
+        "estimate; all: a table of every strategy");
     command.option("--factor", options->job.factor, {1, false, true},
                    "each parameter alone is divided by and multiplied with it");
     command.option("--csv", options->csv, "write the rows here, and X.json beside X.csv");
@@ -61,6 +65,7 @@ void add_computation(Command& command) {
                     "Examples:\n"
                     "  regather computation\n"
                     "  regather computation --set gather_rays=102,gathers=102\n"
+                    "  regather computation --sampling combined:rows=8,columns=32\n"
                     "  regather computation out/room out/eye out/shadow out/gather --csv room.csv",
                     names));
     command.action(options, compute);

@@ -6,6 +6,7 @@
 
 #include "experiment/traces/one_capture.h"
 #include "study/computation/estimate.h"
+#include "study/computation/sampling_operations.h"
 #include "trace/error.h"
 
 namespace regather::study {
@@ -59,6 +60,10 @@ ComputationResult run(const ComputationJob& job, const experiment::ProgressListe
     if (!(job.factor > 1 && job.factor <= most_factor))
         throw trace::UsageError(fmt::format("--factor: found {}, expected a number above 1, at most {}",
                                             job.factor, most_factor));
+    if (!job.sampling.empty() && !job.traces.empty())
+        throw trace::UsageError(
+            "--sampling: found with traces, which tell their capture's; expected without, or --set "
+            "table_flops,sample_flops");
     const std::vector<GivenValue> settings = parse_values(job.settings, "--set");
     std::vector<ComputationEstimate> estimates{{"paper", "", {}}};
     ComputationResult result;
@@ -67,8 +72,10 @@ ComputationResult run(const ComputationJob& job, const experiment::ProgressListe
         estimates.push_back({"paper-102", "", {printed_computation(), {}}});
         estimates.back().counted.set(Input::gather_rays, 102, "from the printed rays");
         estimates.back().counted.set(Input::gathers, 102, "from the printed GFLOP");
-        if (!settings.empty()) {
+        const bool samples = !job.sampling.empty() && job.sampling != "all";
+        if (!settings.empty() || samples) {
             estimates.push_back({"set", "", {}});
+            if (samples) take_sampling(estimates.back().counted, job.sampling, 1);
             overlay(settings, estimates.back().counted);
         }
         notes = notes_on_the_print();
@@ -90,6 +97,7 @@ ComputationResult run(const ComputationJob& job, const experiment::ProgressListe
     result.tables.push_back(table_of_estimates(estimates));
     result.tables.back().notes = std::move(notes);
     result.tables.push_back(results::sensitivity_table(result.rows));
+    if (!job.sampling.empty()) result.tables.push_back(sampling_operations(job.sampling));
     return result;
 }
 

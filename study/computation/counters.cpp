@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "capture/sampling/gather_distribution.h"
 #include "experiment/traces/one_capture.h"
 #include "replay/walk_run.h"
 #include "replay/walk_store.h"
@@ -91,6 +92,20 @@ void take(CountedValues& to, Input input, double value, std::string source, cons
         throw trace::DataError(fmt::format("{}: {}", file_of(trace), error.what()));
     }
     to.set(input, value, std::move(source));
+}
+
+/// By the spec that the capture was made with, and how often it searched for a table.
+void measure_sampling(CountedValues& to, const trace::TraceReader& trace) {
+    const trace::Json* const spec = trace.info().parameters.find("sampling");
+    const std::string given = spec && spec->text() ? *spec->text() : std::string(capture::default_sampling);
+    try {
+        const bool searches = capture::parse_sampling(given).cost(true).searches > 0;
+        take_sampling(
+            to, given,
+            searches ? ratio(counter_of(trace, "guide_queries"), counter_of(trace, "eye_rays", 1)) : 1);
+    } catch (const trace::UsageError& error) {
+        throw trace::DataError(fmt::format("{}: {}", file_of(trace), error.what()));
+    }
 }
 
 void measure_gathers(CountedValues& to, const CaptureTraces& traces,
@@ -195,6 +210,13 @@ void CountedValues::set(Input input, double value, std::string source) {
     sources[static_cast<std::size_t>(input)] = std::move(source);
 }
 
+void take_sampling(CountedValues& to, std::string_view spec, double tables) {
+    const capture::SamplingCost cost = capture::parse_sampling(spec).cost(true);
+    const std::string source = fmt::format("operations of {}", spec);
+    to.set(Input::table_flops, tables * cost.table.flop(), source);
+    to.set(Input::sample_flops, cost.sample.flop(), source);
+}
+
 CountedValues counted_values(const CaptureTraces& traces) {
     const trace::TraceReader& trace = *traces.photons;
     const trace::TraceInfo& info = trace.info();
@@ -217,6 +239,7 @@ CountedValues counted_values(const CaptureTraces& traces) {
 
 CountedValues measured_values(const CaptureTraces& traces, const experiment::ProgressListener& progress) {
     CountedValues out = counted_values(traces);
+    measure_sampling(out, *traces.photons);
     measure_gathers(out, traces, progress);
     measure_rays(out, traces, progress);
     return out;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiment/progress.h"
@@ -41,10 +42,14 @@ struct CountedValues {
 /// names trace.json and the field where a capture's counter is missing, no count, or out of range.
 CountedValues counted_values(const CaptureTraces& traces);
 
-/// The same, and what a gather and a ray met: photons found and looked at; and of the kinds of rays that were
-/// walked, inner nodes visited, and the triangles of the leaves visited. A kind that was not walked counts
-/// with Table 2's constants in the mean over all rays. Decodes walks. Throws also for walks that are damaged
-/// or of another number of rays than the capture counted.
+/// FLOP of a strategy's table, of which an eye ray makes `tables`, and of a gather ray, on glossy surfaces:
+/// the dearer ones. Throws as capture::parse_sampling().
+void take_sampling(CountedValues& to, std::string_view spec, double tables);
+
+/// The same, the FLOP of the capture's sampling, and what a gather and a ray met: photons found and looked
+/// at; and of the kinds of rays that were walked, inner nodes visited, and the triangles of the leaves
+/// visited. A kind that was not walked counts with Table 2's constants in the mean over all rays. Decodes
+/// walks. Throws also for walks that are damaged or of another number of rays than the capture counted.
 CountedValues measured_values(const CaptureTraces& traces, const experiment::ProgressListener& progress);
 
 }  // namespace regather::study
