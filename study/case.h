@@ -41,6 +41,7 @@ std::vector<Case> guide_cases();
 std::vector<Case> leak_cases();
 std::vector<Case> degenerate_geometry_cases();
 std::vector<Case> degenerate_map_cases();
+std::vector<Case> irradiance_record_cases();
 std::vector<Case> keys_on_boxes_cases();
 
 }  // namespace regather::study

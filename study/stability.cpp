@@ -27,6 +27,8 @@ constexpr CaseGroup groups[] = {
      degenerate_geometry_cases},
     {"maps", "photons in a point, on a line, in a plane; radius zero; k = 1 and k = all; the 20-byte photon",
      degenerate_map_cases},
+    {"records", "records of irradiance in the dark, under a sky, at an edge, at any scale",
+     irradiance_record_cases},
     {"keys", "space-filling curves on boxes of extreme proportions", keys_on_boxes_cases},
 };
 

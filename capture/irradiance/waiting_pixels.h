@@ -1,6 +1,6 @@
 // capture/irradiance/waiting_pixels.h -- records that take a while to be computed: pixels that one of them
-// will serve wait in a local buffer and do not compute it again (Steinhurst, Coombe & Lastra, "Reordering for
-// Cache Conscious Photon Mapping", Graphics Interface 2005, section 6.4).
+// will serve wait in a local buffer and do not compute it again (the paper's section 6.4: Steinhurst,
+// Practical Photon Mapping in Hardware, 2004).
 #pragma once
 #include <cstdint>
 #include <span>

@@ -177,7 +177,7 @@ TEST(IrradianceMetric, TheHessiansEllipseLiesAlongTheBar) {
             sample.radiance = {}, sample.distance = static_cast<float>(*met);
     });
     const IrradianceRecord record =
-        make_record(parse_irradiance_cache("hessian"), {grid, {{}, upwards}, incoming, 0, 10});
+        make_record(parse_irradiance_cache("hessian:error=20"), {grid, {{}, upwards}, incoming, 0, 10});
     EXPECT_GT(std::fabs(record.axis.y), 0.98);
     EXPECT_GT(record.longer, 1.6f * record.shorter);
     const auto corners = bar.corners();
@@ -231,7 +231,8 @@ TEST(IrradianceCacheSpec, NamesWhatItDoesNotKnow) {
     refuses("hessian:distance=minimum", "unknown parameter \"distance\"");
     EXPECT_EQ(
         parse_irradiance_cache("bounded:most=9").text,
-        "bounded:tolerance=20,distance=harmonic,gradients=1,neighbours=1,overture=32,rays=0,least=3,most=9");
+        "bounded:tolerance=20,distance=harmonic,gradients=1,neighbours=1,overture=32,rays=0,least=3,most=9,"
+        "latency=64,entries=16");
     for (const IrradianceMetric& metric : irradiance_metrics())
         EXPECT_EQ(parse_irradiance_cache(parse_irradiance_cache(metric.name).text).text,
                   parse_irradiance_cache(metric.name).text);
