@@ -155,6 +155,28 @@ void check(const CaptureConfig& config) {
                         pixels.gather_rays));
 }
 
+void count(const IrradianceTally& tally, trace::Json& counts) {
+    counts["irradiance_records"] = tally.records;
+    counts["irradiance_octree_bytes"] = tally.octree_bytes;
+    counts["irradiance_rays"] = tally.rays;
+    counts["irradiance_queries"] = tally.queries;
+    counts["irradiance_points_served"] = tally.use.served;
+    counts["irradiance_points_not_served"] = tally.use.not_served;
+    counts["irradiance_rays_saved"] = tally.use.rays_saved;
+    counts["irradiance_scatter"] = tally.scatter;
+    counts["irradiance_scatter_of_all"] = tally.scatter_of_all;
+    const WaitingPixels& waiting = tally.waiting;
+    counts["irradiance_waiting_records"] = waiting.records;
+    counts["irradiance_waiting_records_unheld"] = waiting.records_unheld;
+    counts["irradiance_waiting_points"] = waiting.waited;
+    counts["irradiance_waiting_most"] = waiting.most_waiting;
+    counts["irradiance_waiting_half"] = waiting.half;
+    counts["irradiance_waiting_nine_tenths"] = waiting.nine_tenths;
+    counts["irradiance_waiting_ninety_nine"] = waiting.ninety_nine;
+    counts["irradiance_waiting_longest"] = waiting.longest;
+    counts["irradiance_waiting_stopped"] = waiting.stopped;
+}
+
 }  // namespace
 
 trace::Json parameters(const Scene& scene, const CaptureConfig& config) {
@@ -219,6 +241,24 @@ bool has_irradiance_cache(const CaptureConfig& config) {
            config.pixels.visualisation == Visualisation::final_gather;
 }
 
+bool has(Beside trace, const Scene& scene, const CaptureConfig& config) {
+    switch (trace) {
+        case Beside::caustic:
+            return has_caustic_map(scene, config);
+        case Beside::guide:
+            return has_guide(config);
+        case Beside::precompute:
+            return has_precomputation(config);
+        case Beside::reverse:
+            return config.reverse_pixels > 0;
+        case Beside::irradiance:
+        case Beside::irradiance_rounds:
+        case Beside::irradiance_inserts:
+            return has_irradiance_cache(config);
+    }
+    return false;
+}
+
 bool has_caustic_map(const Scene& scene, const CaptureConfig& config) {
     scenes::Needs needs = scenes::needs_of(scene);
     needs.keep(config.keep);
@@ -251,9 +291,9 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         } else {
             reaching = reaching_photons(global.heap, config.gather);
         }
-        if (writers.precompute) {
-            trace::TraceInfo& info = result.precompute_info.emplace();
-            write_photon_searches(*writers.precompute, global.heap, photons_apart(config),
+        if (writers.beside[Beside::precompute]) {
+            trace::TraceInfo& info = result.beside[Beside::precompute].emplace();
+            write_photon_searches(*writers.beside[Beside::precompute], global.heap, photons_apart(config),
                                   global.precomputed ? global.precomputed->searches : reaching.searches,
                                   info);
             describe(info, "precompute", scene, config);
@@ -261,7 +301,7 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
             info.parameters["precompute"] = *parameters(scene, config).find("precompute");
         }
         if (global.precomputed) return;
-        global.reverse_writer = writers.reverse;
+        global.reverse_writer = writers.beside[Beside::reverse];
         global.reverse.emplace(in_order(std::move(reaching), from), config.gather,
                                static_cast<std::uint32_t>(pixels));
     };
@@ -304,7 +344,7 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
                .seed = config.photon.seed,
                .kind = PhotonKind::caustic,
                .paths_per_photon = caustic_paths_per_photon},
-              writers.caustic);
+              writers.beside[Beside::caustic]);
     }
 
     const spatial::PhotonKd photons(global.heap);
@@ -313,7 +353,7 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
                     .caustics = caustics,
                     .guide = {photons, global.origin, caustics,
                               [&](Vec3 origin, Vec3 direction) { return probe.seen(origin, direction); }},
-                    .guide_queries = writers.guide != nullptr};
+                    .guide_queries = writers.beside[Beside::guide] != nullptr};
     std::array<std::uint64_t, ray_kind_names.size()> ray_counts{};
     PixelWork work;
     // What a batch asked for, in the counts and the global map's trace.
@@ -351,22 +391,24 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         tally.waiting = irradiance->waiting();
         result.query_seconds += clock.lap();
         parts.irradiance = &irradiance->octree();
-        parts.octree_searches = writers.irradiance != nullptr;
+        parts.octree_searches = writers.beside[Beside::irradiance] != nullptr;
     }
     trace::TraceInfo octree_info, rounds_info, inserts_info;
     if (irradiance) {
-        write_seeding(irradiance->seeding(), config.pixels.width, {writers.irradiance_rounds, rounds_info},
-                      {writers.irradiance_inserts, inserts_info});
+        write_seeding(irradiance->seeding(), config.pixels.width,
+                      {writers.beside[Beside::irradiance_rounds], rounds_info},
+                      {writers.beside[Beside::irradiance_inserts], inserts_info});
         result.write_seconds += clock.lap();
     }
     const QueryPass query_pass(scene, caster, lights, config.pixels, parts);
     Map guide({.k = parse_sampling(config.pixels.sampling).photons_asked()});
-    if (writers.guide) {
+    if (writers.beside[Beside::guide]) {
         guide.heap = global.heap;
         guide.whole = global.whole;
         guide.config.k = std::min(guide.config.k, photons.size());
         guide.tally = global.tally;
-        guide.columns = std::make_unique<TraceColumns>(scene, config.columns, needs, *writers.guide, false);
+        guide.columns = std::make_unique<TraceColumns>(scene, config.columns, needs,
+                                                       *writers.beside[Beside::guide], false);
         guide.columns->write_photons(guide.heap);
     }
     Film film(config.pixels.width, config.pixels.height, config.pixels.samples);
@@ -391,7 +433,8 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         if (whole_film) whole_film->add(work, global.of_whole, caustic.of_whole);
         result.gather_seconds += clock.lap();
         if (result.irradiance) result.irradiance->use += work.irradiance;
-        if (writers.irradiance) write_searches(*writers.irradiance, work.octree_searches, octree_info);
+        if (writers.beside[Beside::irradiance])
+            write_searches(*writers.beside[Beside::irradiance], work.octree_searches, octree_info);
         keep();
         if (caustic.columns) caustic.columns->write_queries(work.caustic_queries, caustic.gathered);
         if (guide.columns) guide.columns->write_queries(work.guide_queries, guide.gathered);
@@ -427,66 +470,45 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
         return info;
     };
     result.info = finish(global, global.precomputed ? "precomputed" : global.reverse ? "hits" : "global");
-    if (result.precompute_info) result.info.counts["precompute_queries"] = result.precompute_info->queries;
+    if (result.beside[Beside::precompute])
+        result.info.counts["precompute_queries"] = result.beside[Beside::precompute]->queries;
     if (global.reverse) {
         result.info.counts["reverse_passes"] = global.reverse->passes();
         result.info.counts["reverse_points"] = global.reverse->points();
         result.info.counts["reverse_additions"] = global.reverse->additions();
     }
-    if (global.reverse && writers.reverse) {
-        trace::TraceInfo& info = result.reverse_info.emplace();
-        global.reverse->finish(*writers.reverse, info);
+    if (global.reverse && writers.beside[Beside::reverse]) {
+        trace::TraceInfo& info = result.beside[Beside::reverse].emplace();
+        global.reverse->finish(*writers.beside[Beside::reverse], info);
         describe(info, "global", scene, config);
     }
-    const auto finish_octree = [&](trace::TraceWriter* writer, trace::TraceInfo& info,
-                                   std::optional<trace::TraceInfo>& to) {
-        if (!irradiance || !writer) return;
-        finish_searches(*writer, irradiance->octree(), info);
+    const auto finish_octree = [&](Beside trace, trace::TraceInfo& info) {
+        if (!irradiance || !writers.beside[trace]) return;
+        finish_searches(*writers.beside[trace], irradiance->octree(), info);
         info.scene = scene.name;
         info.frame = config.frame;
         info.image_width = config.pixels.width;
         info.image_height = config.pixels.height;
         info.seed = config.pixels.seed;
         info.parameters = trace::Json::object({{"capture", parameters(scene, config)}});
-        to = info;
+        result.beside[trace] = info;
     };
-    finish_octree(writers.irradiance, octree_info, result.irradiance_info);
-    finish_octree(writers.irradiance_rounds, rounds_info, result.irradiance_rounds_info);
-    finish_octree(writers.irradiance_inserts, inserts_info, result.irradiance_inserts_info);
-    if (const std::optional<IrradianceTally>& tally = result.irradiance) {
-        trace::Json& counts = result.info.counts;
-        counts["irradiance_records"] = tally->records;
-        counts["irradiance_octree_bytes"] = tally->octree_bytes;
-        counts["irradiance_rays"] = tally->rays;
-        counts["irradiance_queries"] = tally->queries;
-        counts["irradiance_points_served"] = tally->use.served;
-        counts["irradiance_points_not_served"] = tally->use.not_served;
-        counts["irradiance_rays_saved"] = tally->use.rays_saved;
-        counts["irradiance_scatter"] = tally->scatter;
-        counts["irradiance_scatter_of_all"] = tally->scatter_of_all;
-        const WaitingPixels& waiting = tally->waiting;
-        counts["irradiance_waiting_records"] = waiting.records;
-        counts["irradiance_waiting_records_unheld"] = waiting.records_unheld;
-        counts["irradiance_waiting_points"] = waiting.waited;
-        counts["irradiance_waiting_most"] = waiting.most_waiting;
-        counts["irradiance_waiting_half"] = waiting.half;
-        counts["irradiance_waiting_nine_tenths"] = waiting.nine_tenths;
-        counts["irradiance_waiting_ninety_nine"] = waiting.ninety_nine;
-        counts["irradiance_waiting_longest"] = waiting.longest;
-        counts["irradiance_waiting_stopped"] = waiting.stopped;
-    }
+    finish_octree(Beside::irradiance, octree_info);
+    finish_octree(Beside::irradiance_rounds, rounds_info);
+    finish_octree(Beside::irradiance_inserts, inserts_info);
+    if (result.irradiance) count(*result.irradiance, result.info.counts);
     if (const std::optional<RecordError>& error = result.record_error) {
         result.info.counts["packed_farthest"] = error->farthest;
         result.info.counts["packed_relative_rmse"] = error->relative_rmse;
         result.info.counts["packed_relative_mean"] = error->relative_mean;
         result.info.counts["packed_flip"] = error->flip;
     }
-    if (writers.guide) {
-        result.guide_info = finish(guide, "guide");
+    if (writers.beside[Beside::guide]) {
+        result.beside[Beside::guide] = finish(guide, "guide");
         result.info.counts["guide_queries"] = guide.info.queries;
     }
     if (caustics) {
-        result.caustic_info = finish(caustic, "caustic");
+        result.beside[Beside::caustic] = finish(caustic, "caustic");
     } else if (writers.global) {
         result.info.left_out.push_back({"caustic map", needs.caustics.needed
                                                            ? "no caustic photons were asked for"

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "capture/beside.h"
 #include "capture/film.h"
 #include "capture/gather_pass.h"
 #include "capture/images/image.h"
@@ -73,12 +74,7 @@ struct Captured {
     Image image;
     Layers layers;
     trace::TraceInfo info;
-    std::optional<trace::TraceInfo> caustic_info;  ///< Where there is a caustic map.
-    std::optional<trace::TraceInfo> guide_info;    ///< Where directions are chosen by searches, and written.
-    std::optional<trace::TraceInfo> precompute_info;  ///< Where has_precomputation().
-    std::optional<trace::TraceInfo> reverse_info;     ///< Where photons search hit points.
-    /// Where there is an irradiance cache: searches of its octree; those of its rounds, and insertions.
-    std::optional<trace::TraceInfo> irradiance_info, irradiance_rounds_info, irradiance_inserts_info;
+    OfBeside<std::optional<trace::TraceInfo>> beside;  ///< Of those that were written.
     double photon_seconds = 0, tree_seconds = 0, query_seconds = 0, gather_seconds = 0, write_seconds = 0;
     Nonfinite nonfinite;                        ///< What was left out of the image and the maps.
     std::optional<IrradianceTally> irradiance;  ///< Where there is an irradiance cache.
@@ -102,26 +98,22 @@ bool has_guide(const CaptureConfig& config);
 /// Whether photons are searched at photons, for the irradiance there or for how far they reach.
 bool has_precomputation(const CaptureConfig& config);
 
-/// Where the columns go: each photon map has a trace of its own, and an irradiance cache has three. Null:
-/// nowhere.
-struct TraceWriters {
-    trace::TraceWriter* global = nullptr;
-    trace::TraceWriter* caustic = nullptr;
-    trace::TraceWriter* guide = nullptr;  ///< Of the searches that choose directions; has photons of its own.
-    trace::TraceWriter* precompute = nullptr;          ///< Of the searches at photons, before any gather.
-    trace::TraceWriter* reverse = nullptr;             ///< Of the photons' searches of hit points.
-    trace::TraceWriter* irradiance = nullptr;          ///< Searches of the octree of irradiance records.
-    trace::TraceWriter* irradiance_rounds = nullptr;   ///< Those of the rounds that made it.
-    trace::TraceWriter* irradiance_inserts = nullptr;  ///< What was inserted into it.
-};
-
 /// Whether diffuse points have their gathered light from records of irradiance: that is asked for, and there
 /// are gather rays.
 bool has_irradiance_cache(const CaptureConfig& config);
 
-/// Renders, and writes columns; the caller finishes the writers with what Captured has for each when all else
-/// that belongs to the capture is written. UsageError for a picture without
-/// pixels or of 2^32 queries or more.
+/// Whether a capture has that trace beside the gathers' own.
+bool has(Beside trace, const Scene& scene, const CaptureConfig& config);
+
+/// Where the columns go; null: nowhere.
+struct TraceWriters {
+    trace::TraceWriter* global = nullptr;
+    OfBeside<trace::TraceWriter*> beside;
+};
+
+/// Renders, and writes columns; the caller finishes the writers with Captured's info and beside when all else
+/// that belongs to the capture is written. UsageError for a picture without pixels or of 2^32 queries or
+/// more.
 Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWriters& writers = {});
 
 }  // namespace regather::capture

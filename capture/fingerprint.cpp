@@ -33,7 +33,7 @@ void add_capture(trace::Digest& digest, const scenes::Scene& scene, Visualisatio
     const Captured captured = capture(scene, config);
     add(digest, captured.image);
     add(digest, captured.info);
-    if (captured.caustic_info) add(digest, *captured.caustic_info);
+    if (const auto& caustic = captured.beside[Beside::caustic]) add(digest, *caustic);
 }
 
 }  // namespace

@@ -15,6 +15,8 @@
 namespace regather::experiment {
 namespace {
 
+using capture::Beside;
+
 namespace fs = std::filesystem;
 
 bool has_columns(const trace::TraceReader& trace, const capture::CaptureConfig& config) {
@@ -99,21 +101,31 @@ std::string reverse_figures(const trace::TraceInfo& info) {
             static_cast<double>(std::max<std::uint64_t>(info.queries, 1)));
 }
 
+constexpr Beside all_beside[] = {Beside::caustic,           Beside::guide,      Beside::precompute,
+                                 Beside::reverse,           Beside::irradiance, Beside::irradiance_rounds,
+                                 Beside::irradiance_inserts};
+
+/// All that is said of the traces, of the records and of the cache.
+std::string figures_of(const trace::TraceInfo& info,
+                       const capture::OfBeside<std::optional<trace::TraceInfo>>& beside) {
+    std::string report;
+    for (const Beside which : {Beside::caustic, Beside::guide, Beside::precompute})
+        if (beside[which]) report += figures(*beside[which]);
+    if (beside[Beside::reverse]) report += reverse_figures(*beside[Beside::reverse]);
+    report += record_figures(info) + irradiance_figures(info);
+    if (beside[Beside::irradiance]) report += octree_figures(*beside[Beside::irradiance]);
+    return report;
+}
+
 /// Where the parts of one captured frame lie.
 struct Files {
     explicit Files(const fs::path& folder)
-        : exr(folder / "image.exr"),
-          png(folder / "image.png"),
-          trace(folder / "trace"),
-          caustic_trace(folder / "caustic-trace"),
-          guide_trace(folder / "guide-trace"),
-          precompute_trace(folder / "precompute-trace"),
-          reverse_trace(folder / "reverse-trace"),
-          irradiance_trace(folder / "irradiance-trace"),
-          irradiance_rounds(folder / "irradiance-rounds"),
-          irradiance_inserts(folder / "irradiance-inserts") {}
-    fs::path exr, png, trace, caustic_trace, guide_trace, precompute_trace, reverse_trace, irradiance_trace,
-        irradiance_rounds, irradiance_inserts;
+        : exr(folder / "image.exr"), png(folder / "image.png"), trace(folder / "trace") {
+        for (std::size_t t = 0; t < capture::beside_folders.size(); ++t)
+            beside.all[t] = folder / capture::beside_folders[t];
+    }
+    fs::path exr, png, trace;
+    capture::OfBeside<fs::path> beside;
 };
 
 /// What is said of a finished capture of the same; nothing when there is none.
@@ -132,16 +144,11 @@ std::optional<std::string> kept(const fs::path& folder, const Files& files, cons
                                                 folder.string(), image.filename().string()));
     std::string report =
         fmt::format("kept the finished capture in {}\n{}", folder.string(), figures(trace.info()));
-    if (capture::has_caustic_map(scene, config))
-        report += figures(trace::TraceReader(files.caustic_trace).info());
-    if (capture::has_guide(config)) report += figures(trace::TraceReader(files.guide_trace).info());
-    if (capture::has_precomputation(config))
-        report += figures(trace::TraceReader(files.precompute_trace).info());
-    if (config.reverse_pixels > 0) report += reverse_figures(trace::TraceReader(files.reverse_trace).info());
-    report += record_figures(trace.info());
-    report += irradiance_figures(trace.info());
-    if (capture::has_irradiance_cache(config))
-        report += octree_figures(trace::TraceReader(files.irradiance_trace).info());
+    capture::OfBeside<std::optional<trace::TraceInfo>> beside;
+    for (const Beside which : all_beside)
+        if (capture::has(which, scene, config))
+            beside[which] = trace::TraceReader(files.beside[which]).info();
+    report += figures_of(trace.info(), beside);
     return report;
 }
 
@@ -149,32 +156,19 @@ std::optional<std::string> kept(const fs::path& folder, const Files& files, cons
 std::string capture_into(const fs::path& folder, const scenes::Scene& scene, capture::CaptureConfig config,
                          const CaptureOptions& options, bool force, const ProgressListener& progress) {
     const Files files(folder);
-    const bool has_caustics = capture::has_caustic_map(scene, config);
     if (!force)
         if (const auto report = kept(folder, files, scene, config)) return *report;
     fs::create_directories(folder);
     trace::TraceWriter writer(files.trace, force);
-    // Without the other it is no finished capture.
-    const auto further_trace = [](std::optional<trace::TraceWriter>& further, bool wanted,
-                                  const fs::path& to) {
-        if (wanted)
-            further.emplace(to, true);
+    // Without the others it is no finished capture.
+    capture::OfBeside<std::optional<trace::TraceWriter>> beside;
+    capture::TraceWriters writers{&writer, {}};
+    for (const Beside which : all_beside) {
+        if (capture::has(which, scene, config))
+            writers.beside[which] = &beside[which].emplace(files.beside[which], true);
         else
-            fs::remove_all(to);
-        return wanted ? &*further : nullptr;
-    };
-    std::optional<trace::TraceWriter> caustic_writer, guide_writer, precompute_writer, reverse_writer,
-        irradiance_writer, rounds_writer, inserts_writer;
-    const bool has_records = capture::has_irradiance_cache(config);
-    const capture::TraceWriters writers{
-        &writer,
-        further_trace(caustic_writer, has_caustics, files.caustic_trace),
-        further_trace(guide_writer, capture::has_guide(config), files.guide_trace),
-        further_trace(precompute_writer, capture::has_precomputation(config), files.precompute_trace),
-        further_trace(reverse_writer, config.reverse_pixels > 0, files.reverse_trace),
-        further_trace(irradiance_writer, has_records, files.irradiance_trace),
-        further_trace(rounds_writer, has_records, files.irradiance_rounds),
-        further_trace(inserts_writer, has_records, files.irradiance_inserts)};
+            fs::remove_all(files.beside[which]);
+    }
     const std::string shown = trace::shown(scene.name);
     const std::string name = config.frame ? fmt::format("{}, frame {}", shown, *config.frame) : shown;
     config.progress = [&](std::string_view stage, std::uint64_t done, std::uint64_t total) {
@@ -187,25 +181,14 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
     const float exposure = options.exposure > 0 ? static_cast<float>(options.exposure)
                                                 : capture::middle_exposure(captured.image);
     capture::write_png(files.png, captured.image, exposure, options.tone_curve());
-    if (caustic_writer) caustic_writer->finish(*captured.caustic_info);
-    if (guide_writer) guide_writer->finish(*captured.guide_info);
-    if (precompute_writer) precompute_writer->finish(*captured.precompute_info);
-    if (reverse_writer) reverse_writer->finish(*captured.reverse_info);
-    if (irradiance_writer) irradiance_writer->finish(*captured.irradiance_info);
-    if (rounds_writer) rounds_writer->finish(*captured.irradiance_rounds_info);
-    if (inserts_writer) inserts_writer->finish(*captured.irradiance_inserts_info);
+    for (const Beside which : all_beside)
+        if (beside[which]) beside[which]->finish(*captured.beside[which]);
     writer.finish(captured.info);
 
     std::string report =
         fmt::format("captured {} ({} triangles{})\n{}", trace::shown(scene.name), scene.triangles.size(),
                     config.frame ? fmt::format(", frame {}", *config.frame) : "", figures(captured.info));
-    if (captured.caustic_info) report += figures(*captured.caustic_info);
-    if (captured.guide_info) report += figures(*captured.guide_info);
-    if (captured.precompute_info) report += figures(*captured.precompute_info);
-    if (captured.reverse_info) report += reverse_figures(*captured.reverse_info);
-    report += record_figures(captured.info);
-    report += irradiance_figures(captured.info);
-    if (captured.irradiance_info) report += octree_figures(*captured.irradiance_info);
+    report += figures_of(captured.info, captured.beside);
     report += fmt::format(
         "  seconds: photons {:.1f}, trees {:.1f}, queries {:.1f}, gathers {:.1f}, writing {:.1f}\n",
         captured.photon_seconds, captured.tree_seconds, captured.query_seconds, captured.gather_seconds,
@@ -213,16 +196,10 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
     for (const trace::LeftOut& part : captured.info.left_out)
         report += fmt::format("  left out {}: {}\n", trace::shown(part.what), trace::shown(part.why, 200));
     if (captured.nonfinite.total() > 0) report += fmt::format("  {}\n", captured.nonfinite.text());
-    report += fmt::format("  image: {} and {}\n  trace: {}{}{}\n", files.exr.string(), files.png.string(),
-                          files.trace.string(),
-                          caustic_writer ? fmt::format(" and {}", files.caustic_trace.string()) : "",
-                          guide_writer ? fmt::format(" and {}", files.guide_trace.string()) : "");
-    if (precompute_writer)
-        report += fmt::format("  precomputation's trace: {}\n", files.precompute_trace.string());
-    if (reverse_writer) report += fmt::format("  photons' trace: {}\n", files.reverse_trace.string());
-    if (irradiance_writer)
-        report += fmt::format("  octree's traces: {}, {}, {}\n", files.irradiance_trace.string(),
-                              files.irradiance_rounds.string(), files.irradiance_inserts.string());
+    report += fmt::format("  image: {} and {}\n  trace: {}\n", files.exr.string(), files.png.string(),
+                          files.trace.string());
+    for (const Beside which : all_beside)
+        if (beside[which]) report += fmt::format("  beside it: {}\n", files.beside[which].string());
     return report;
 }
 

@@ -66,7 +66,7 @@ TEST(CausticMap, WithoutItGatherRaysFindTheSameLight) {
     config.pixels.gather_rays = 200'000;  // of which about 1800 end on the light
     config.photon.photons = 0;
     const Captured captured = capture(light_under_a_mirror(), config);
-    EXPECT_FALSE(captured.caustic_info);
+    EXPECT_FALSE(captured.beside[Beside::caustic]);
     EXPECT_NEAR(static_cast<double>(captured.layers[Layer::caustic].pixels[0].x) / truth, 1, 0.09);
 }
 
@@ -92,9 +92,9 @@ TEST(CausticMap, IsATraceOfItsOwn) {
     config.pixels.width = config.pixels.height = 4;
     config.pixels.gather_rays = 4;
     config.caustic.photons = 2000;
-    const Captured captured = capture(light_under_a_mirror(), config, {&global, &caustic});
+    const Captured captured = capture(light_under_a_mirror(), config, {&global, {&caustic}});
     global.finish(captured.info);
-    caustic.finish(*captured.caustic_info);
+    caustic.finish(*captured.beside[Beside::caustic]);
     trace::TraceReader reader(scratch / "caustic");
     EXPECT_EQ(reader.info().map, "caustic");
     EXPECT_EQ(reader.info().k, 100'000u);
@@ -130,7 +130,7 @@ Kept captured_with(const scenes::Scene& scene, const std::set<std::string>& keep
     config.keep = keep;
     trace::TraceWriter writer(scratch / "trace", false), caustic(scratch / "caustic", false);
     Kept kept;
-    kept.captured = capture(scene, config, {&writer, &caustic});
+    kept.captured = capture(scene, config, {&writer, {&caustic}});
     writer.finish(kept.captured.info);
     const trace::TraceReader reader(scratch / "trace");
     kept.info = reader.info();
@@ -148,12 +148,12 @@ TEST(Needs, WithoutSpecularSurfacesThereIsNoCausticMapAndKeepingOneChangesNoPixe
     const scenes::Scene box = scenes::load_scene("box");
     const Kept without = captured_with(box, {}), with = captured_with(box, {"caustics"});
     EXPECT_FALSE(has_caustic_map(box, small()));
-    EXPECT_FALSE(without.captured.caustic_info);
+    EXPECT_FALSE(without.captured.beside[Beside::caustic]);
     EXPECT_TRUE(is_left_out(without.info, "caustic map"));
-    ASSERT_TRUE(with.captured.caustic_info);
-    EXPECT_EQ(with.captured.caustic_info->photons, 0u);
-    EXPECT_GT(with.captured.caustic_info->queries, 0u);
-    EXPECT_GT(count(with.captured.caustic_info->counts, "photon_paths"), 0u);
+    ASSERT_TRUE(with.captured.beside[Beside::caustic]);
+    EXPECT_EQ(with.captured.beside[Beside::caustic]->photons, 0u);
+    EXPECT_GT(with.captured.beside[Beside::caustic]->queries, 0u);
+    EXPECT_GT(count(with.captured.beside[Beside::caustic]->counts, "photon_paths"), 0u);
     EXPECT_EQ(with.captured.image.pixels, without.captured.image.pixels);
 }
 

@@ -223,8 +223,10 @@ TEST(PrecomputedIrradiance, TracesAreTheSearchesOnAnyNumberOfThreads) {
     for (const std::size_t threads : {1, 4}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         trace::TraceWriter writer(scratch / "trace", true), precompute(scratch / "precompute", true);
-        Captured found = capture(scene, small_capture(4), {.global = &writer, .precompute = &precompute});
-        precompute.finish(*found.precompute_info);
+        TraceWriters writers{&writer, {}};
+        writers.beside[Beside::precompute] = &precompute;
+        Captured found = capture(scene, small_capture(4), writers);
+        precompute.finish(*found.beside[Beside::precompute]);
         writer.finish(found.info);
         trace::TraceReader lookups(scratch / "trace"), searches(scratch / "precompute");
         EXPECT_EQ(lookups.info().k, 1u);

@@ -188,10 +188,12 @@ TEST(ReverseGather, TracesAreTheSearchesOnAnyNumberOfThreads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         trace::TraceWriter writer(scratch / "trace", true), precompute(scratch / "precompute", true),
             reverse(scratch / "reverse", true);
-        Captured found = capture(scene, reversed(200),
-                                 {.global = &writer, .precompute = &precompute, .reverse = &reverse});
-        precompute.finish(*found.precompute_info);
-        reverse.finish(*found.reverse_info);
+        TraceWriters writers{&writer, {}};
+        writers.beside[Beside::precompute] = &precompute;
+        writers.beside[Beside::reverse] = &reverse;
+        Captured found = capture(scene, reversed(200), writers);
+        precompute.finish(*found.beside[Beside::precompute]);
+        reverse.finish(*found.beside[Beside::reverse]);
         writer.finish(found.info);
         trace::TraceReader hits(scratch / "trace"), radii(scratch / "precompute"),
             photons(scratch / "reverse");

@@ -120,8 +120,10 @@ TEST(IrradianceCache, TheOctreesTraceHoldsEachSearch) {
     const Scratch scratch;
     const CaptureConfig config = cached("bounded");
     trace::TraceWriter writer(scratch / "trace", false), of_octree(scratch / "octree", false);
-    Captured found = capture(closed_box(0.5), config, {.global = &writer, .irradiance = &of_octree});
-    of_octree.finish(*found.irradiance_info);
+    TraceWriters writers{&writer, {}};
+    writers.beside[Beside::irradiance] = &of_octree;
+    Captured found = capture(closed_box(0.5), config, writers);
+    of_octree.finish(*found.beside[Beside::irradiance]);
     writer.finish(found.info);
     EXPECT_EQ(found.image.pixels, capture(closed_box(0.5), config).image.pixels);
     trace::TraceReader trace(scratch / "octree");
@@ -170,10 +172,12 @@ TEST(IrradianceCache, RoundsAndInsertionsHaveTracesOfTheirOwn) {
     const Scratch scratch;
     const CaptureConfig config = cached("bounded:overture=4,latency=5,entries=2");
     trace::TraceWriter of_rounds(scratch / "rounds", false), of_inserts(scratch / "inserts", false);
-    Captured found = capture(closed_box(0.5), config,
-                             {.irradiance_rounds = &of_rounds, .irradiance_inserts = &of_inserts});
-    of_rounds.finish(*found.irradiance_rounds_info);
-    of_inserts.finish(*found.irradiance_inserts_info);
+    TraceWriters writers;
+    writers.beside[Beside::irradiance_rounds] = &of_rounds;
+    writers.beside[Beside::irradiance_inserts] = &of_inserts;
+    Captured found = capture(closed_box(0.5), config, writers);
+    of_rounds.finish(*found.beside[Beside::irradiance_rounds]);
+    of_inserts.finish(*found.beside[Beside::irradiance_inserts]);
     EXPECT_EQ(found.image.pixels, capture(closed_box(0.5), config).image.pixels);
     trace::TraceReader rounds(scratch / "rounds"), inserts(scratch / "inserts");
     const IrradianceUse& use = found.irradiance->use;
