@@ -18,7 +18,7 @@ namespace {
 
 using Rgb = trace::Vec3d;
 
-constexpr std::uint64_t block_pixels = 64;
+constexpr std::uint64_t traced_at_once = 64;
 constexpr double roulette_below = 0.25;  // of the throughput: shorter paths are worth their whole cost
 // Glass keeps light that smooth normals have turned below its critical angle, and loses none of it: a path of
 // only specular surfaces meets another roulette. Its mean length beyond is 64.
@@ -225,12 +225,12 @@ PathCounts PathTracer::add(std::span<Moments> pixels, std::uint32_t first, std::
     PathCounts all;
     std::mutex mutex;
     std::atomic<std::uint64_t> done = 0;
-    const std::uint64_t blocks = (pixels.size() + block_pixels - 1) / block_pixels;
+    const std::uint64_t blocks = (pixels.size() + traced_at_once - 1) / traced_at_once;
     tbb::parallel_for(std::uint64_t{0}, blocks, [&](std::uint64_t block) {
         View view;
         PathCounts counts;
-        const std::uint64_t begin = block * block_pixels,
-                            end = std::min<std::uint64_t>(begin + block_pixels, pixels.size());
+        const std::uint64_t begin = block * traced_at_once,
+                            end = std::min<std::uint64_t>(begin + traced_at_once, pixels.size());
         for (std::uint64_t pixel = begin; pixel < end; ++pixel)
             for (std::uint32_t s = 0; s < count; ++s) {
                 const Rgb rgb = sample(static_cast<std::uint32_t>(pixel), first + s, view, counts);

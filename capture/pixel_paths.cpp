@@ -14,7 +14,7 @@ namespace {
 constexpr float unlimited = std::numeric_limits<float>::infinity();
 constexpr std::size_t lights_sampled_each = 4;
 
-float component_sum(Vec3 v) {
+float sum_of_channels(Vec3 v) {
     return v.x + v.y + v.z;
 }
 bool is_black(const Material& material) {
@@ -262,12 +262,12 @@ void PixelPaths::add_light_of(const Shaded& at, Vec3 origin, const LightPoint& p
 /// Gives each shaded point of the eye ray its share of the gather rays, by its throughput, and one at least.
 void PixelPaths::share_gather_rays(std::uint32_t rays) {
     float total = 0;
-    for (std::size_t i = 0; i < shaded_points_; ++i) total += component_sum(shaded_[i].throughput);
+    for (std::size_t i = 0; i < shaded_points_; ++i) total += sum_of_channels(shaded_[i].throughput);
     if (!(total > 0)) return;
     std::uint32_t left = rays;
     for (std::size_t i = 0; i < shaded_points_; ++i) {
         const auto fair = static_cast<std::uint32_t>(
-            std::lround(component_sum(shaded_[i].throughput) / total * static_cast<float>(rays)));
+            std::lround(sum_of_channels(shaded_[i].throughput) / total * static_cast<float>(rays)));
         const bool last = i + 1 == shaded_points_;
         shaded_[i].gather_rays = last ? std::max(left, 1u) : std::clamp(fair, 1u, std::max(left, 1u));
         left -= std::min(shaded_[i].gather_rays, left);

@@ -20,8 +20,9 @@ struct ReachingPhotons {
 };
 
 /// A photon reaches as far as the k-th nearest photon of `heap` (itself the first), and config.radius at
-/// most. A density that is estimated by discs about the photons (Silverman, "Density Estimation", 1986,
-/// section 5.3) is even where photons are spread evenly, whatever their radii, at any k. In the heap's order.
+/// most: sample-point density estimation (Silverman, "Density Estimation", 1986, section 5.3; of reverse
+/// photon mapping: Singh & Faloutsos, "SIMD Packet Techniques for Photon Mapping", RT 2007). Its mean is
+/// right where photons lie evenly, at any k. In the heap's order.
 ReachingPhotons reaching_photons(std::span<const trace::Photon> heap, const GatherConfig& config);
 
 /// What a photon of squared radius `radius2` adds to a point `distance2` away that it reaches [W / (m^2 sr)]:
