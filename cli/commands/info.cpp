@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "capture/irradiance/open_surfaces.h"
 #include "cli/command.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
@@ -115,6 +116,8 @@ void add_info(Command& command) {
         const scenes::Needs needs = scenes::needs_of(scene);
         for (const scenes::Need* need : needs.list())
             console.print("{:<10} {}: {}\n", need->needed ? "needed" : "left out", need->part, need->reason);
+        console.print("left out   irradiance_cache: unless --irradiance-cache asks for it. {}\n",
+                      capture::open_surfaces(scene).text());
     });
 }
 
