@@ -51,6 +51,17 @@ TEST(ComputationCommand, AloneItIsThePapersTable) {
     EXPECT_EQ(rows.at("gathers").source, "--set");
 }
 
+TEST(ComputationCommand, AStrategysOperationsAreItsFlop) {
+    const auto rows = computed({"--sampling", "cosine"}, "set");
+    EXPECT_EQ(rows.at("table_flops").value, 0);
+    EXPECT_EQ(rows.at("sample_flops").value, 29);
+    EXPECT_EQ(rows.at("pixels").sampling_flop, 1024.0 * 768 * 2 * 100 * 29);
+    EXPECT_THAT(expect_done({"computation", "--sampling", "all"}).out, HasSubstr("footprints"));
+    EXPECT_EQ(computed({box_trace()}, "measured").at("table_flops").value, 0) << "by the BRDF";
+    expect_refused(bad_usage, {"computation", box_trace(), "--sampling", "all"}, {"--sampling", "without"});
+    expect_refused(bad_usage, {"computation", "--sampling", "cosin"}, {"nearest: cosine"});
+}
+
 TEST(ComputationCommand, ACapturesCountsAreThoseOfItsTraceJson) {
     const nlohmann::json info = trace_json(captured_box() / "trace"), counts = info.at("counts");
     const double eye = counts.at("eye_rays"), queries = info.at("queries");
