@@ -103,7 +103,7 @@ TEST(NearestFacing, IsTheNearestPhotonOfThatSideWhateverLiesBefore) {
             EXPECT_EQ(facing.found()->node, best.second) << i;
             beyond += best != any ? 1 : 0;
         }
-        EXPECT_GT(beyond, 50u);
+        EXPECT_GT(beyond, 10u);
         EXPECT_EQ(none > 0, std::isfinite(radius));
     }
 }
@@ -152,11 +152,11 @@ TEST(LookUp, ReflectsTheIrradianceOfItsOwnSide) {
     EXPECT_GT(gathered.radiance[0].x, 0);
 }
 
-// Photons at random on a plane of 1 W / m^2 each of 1 / n: every point has irradiance 1. Of n gathers of k
-// the standard error is at most 1 / sqrt(n / k) / sqrt(k), as if only those that share no photon counted: 4
-// of them, and the byte's 1 / 256.
+// Photons of 1 W in all at random on 1 m^2: every point has irradiance 1. The mean of n of them has a
+// standard error of 1 / sqrt(n): 4 of those, and the byte's 1 / 256. Without the photon itself it would be 1
+// / 10 less.
 TEST(PrecomputedIrradiance, OfAnEvenFurnaceIsTheFurnaces) {
-    constexpr std::uint32_t count = 40000, k = 50;
+    constexpr std::uint32_t count = 8000, k = 10;
     std::vector<trace::Photon> photons(count);
     Sampler sampler(4, Stream::photon, 2);
     for (trace::Photon& photon : photons) {
@@ -172,7 +172,7 @@ TEST(PrecomputedIrradiance, OfAnEvenFurnaceIsTheFurnaces) {
     white.materials = {{.name = "white", .diffuse = {1, 1, 1}}};
     white.triangle_material = {0};
     Queries queries;
-    for (int i = 0; i < 10000; ++i) {
+    for (int i = 0; i < 3000; ++i) {
         const float x = sampler.uniform(), y = sampler.uniform();
         queries.position.push_back({0.1f + 0.8f * x, 0.1f + 0.8f * y, 0});
         queries.normal.push_back({0, 0, 1});
@@ -195,7 +195,7 @@ TEST(PrecomputedIrradiance, OfAnEvenFurnaceIsTheFurnaces) {
 CaptureConfig small_capture(std::uint32_t every) {
     CaptureConfig config;
     config.pixels = {.width = 24, .height = 18, .gather_rays = 16, .shadow_rays = 2, .seed = 5};
-    config.photon = {.photons = 6000, .seed = 5};
+    config.photon = {.photons = 2400, .seed = 5};
     config.gather.k = 40;
     config.precompute_every = every;
     return config;
@@ -230,10 +230,10 @@ TEST(PrecomputedIrradiance, TracesAreTheSearchesOnAnyNumberOfThreads) {
         writer.finish(found.info);
         trace::TraceReader lookups(scratch / "trace"), searches(scratch / "precompute");
         EXPECT_EQ(lookups.info().k, 1u);
-        EXPECT_EQ(lookups.info().photons, 1500u);
+        EXPECT_EQ(lookups.info().photons, 600u);
         EXPECT_EQ(lookups.info().found_photons, lookups.info().queries);
-        EXPECT_EQ(searches.info().queries, 1500u);
-        EXPECT_EQ(searches.info().found_photons, 1500u * 40);
+        EXPECT_EQ(searches.info().queries, 600u);
+        EXPECT_EQ(searches.info().found_photons, 600u * 40);
         EXPECT_TRUE(replay::verify(lookups).searched);
         EXPECT_TRUE(replay::verify(searches).searched);
         EXPECT_THROW(replay::refuse_normals(lookups), trace::DataError);
