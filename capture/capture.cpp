@@ -12,7 +12,7 @@
 #include "capture/baselines/reverse_gather.h"
 #include "capture/irradiance/irradiance_pass.h"
 #include "capture/irradiance/octree_columns.h"
-#include "capture/light_probe.h"
+#include "capture/light/light_probe.h"
 #include "scenes/needs.h"
 #include "spatial/photons/photon_kd.h"
 #include "trace/error.h"

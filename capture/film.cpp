@@ -1,6 +1,6 @@
 #include "capture/film.h"
 
-#include "capture/moments.h"
+#include "capture/reference/moments.h"
 
 namespace regather::capture {
 namespace {

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "capture/capture.h"
-#include "capture/reference.h"
+#include "capture/reference/reference.h"
 #include "trace/digest.h"
 
 namespace regather::capture {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <span>
 
+#include "capture/light/surface.h"
 #include "capture/sampler.h"
-#include "capture/surface.h"
 
 namespace regather::capture {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "capture/lights.h"
+#include "capture/light/lights.h"
 #include "capture/nonfinite.h"
 #include "capture/ray_caster.h"
 #include "trace/photon.h"

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "capture/sampler.h"
-#include "capture/strata.h"
+#include "capture/sampling/strata.h"
 
 namespace regather::capture {
 namespace {

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "capture/irradiance/hemisphere_grid.h"
+#include "capture/light/surface.h"
 #include "capture/query_pass.h"
 #include "capture/sampling/gather_distribution.h"
-#include "capture/strata.h"
-#include "capture/surface.h"
+#include "capture/sampling/strata.h"
 #include "capture/view_plane.h"
 #include "spatial/list_walk.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "capture/irradiance/irradiance_octree.h"
-#include "capture/lights.h"
+#include "capture/light/lights.h"
 #include "capture/nonfinite.h"
 #include "capture/ray_caster.h"
 #include "capture/sampling/gather_distribution.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "capture/bsdf.h"
+#include "capture/light/bsdf.h"
 #include "spatial/photons/nearest.h"
 #include "spatial/photons/photon_kd.h"
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "capture/reference.h"
+#include "capture/reference/reference.h"
 #include "experiment/progress.h"
 #include "scenes/scene.h"
 

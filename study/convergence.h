@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "capture/capture.h"
-#include "capture/reference.h"
+#include "capture/reference/reference.h"
 #include "results/convergence_row.h"
 #include "study/error_parts.h"
 #include "study/ladder.h"

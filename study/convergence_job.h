@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "capture/reference.h"
+#include "capture/reference/reference.h"
 #include "experiment/progress.h"
 #include "results/convergence_row.h"
 #include "study/convergence.h"

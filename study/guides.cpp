@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "capture/moments.h"
+#include "capture/reference/moments.h"
 #include "capture/sampling/gather_distribution.h"
 #include "study/case.h"
 

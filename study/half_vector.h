@@ -4,7 +4,7 @@
 #pragma once
 #include <utility>
 
-#include "capture/bsdf.h"
+#include "capture/light/bsdf.h"
 #include "trace/vec.h"
 
 namespace regather::study {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "capture/bsdf.h"
+#include "capture/light/bsdf.h"
 #include "capture/ray_caster.h"
 #include "capture/sampler.h"
 #include "scenes/loader.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "capture/moments.h"
+#include "capture/reference/moments.h"
 #include "study/case.h"
 #include "study/compensated.h"
 

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "capture/bsdf.h"
-#include "capture/moments.h"
+#include "capture/light/bsdf.h"
+#include "capture/reference/moments.h"
 #include "study/case.h"
 #include "study/half_vector.h"
 

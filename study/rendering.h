@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "capture/capture.h"
-#include "capture/path_tracer.h"
+#include "capture/reference/path_tracer.h"
 
 namespace regather::study {
 

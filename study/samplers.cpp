@@ -10,8 +10,8 @@
 #include <numbers>
 #include <vector>
 
-#include "capture/bsdf.h"
-#include "capture/lights.h"
+#include "capture/light/bsdf.h"
+#include "capture/light/lights.h"
 #include "study/case.h"
 #include "study/chi_squared.h"
 #include "study/half_vector.h"

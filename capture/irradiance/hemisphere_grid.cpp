@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "capture/bsdf.h"
+#include "capture/light/bsdf.h"
 #include "trace/error.h"
 
 namespace regather::capture {

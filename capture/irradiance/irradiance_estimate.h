@@ -4,8 +4,8 @@
 #include <array>
 #include <span>
 
-#include "capture/bsdf.h"
 #include "capture/irradiance/hemisphere_grid.h"
+#include "capture/light/bsdf.h"
 
 namespace regather::capture {
 

@@ -5,8 +5,8 @@
 #pragma once
 #include <span>
 
-#include "capture/bsdf.h"
 #include "capture/irradiance/irradiance_estimate.h"
+#include "capture/light/bsdf.h"
 
 namespace regather::capture {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <string_view>
 
-#include "capture/bsdf.h"
+#include "capture/light/bsdf.h"
 #include "capture/sampling/operations.h"
 #include "capture/sampling/photon_guide.h"
-#include "capture/strata.h"
+#include "capture/sampling/strata.h"
 #include "trace/parameters.h"
 
 namespace regather::capture {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "capture/bsdf.h"
+#include "capture/light/bsdf.h"
 #include "trace/error.h"
 
 namespace regather::capture {

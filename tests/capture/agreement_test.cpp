@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "capture/capture.h"
-#include "capture/path_tracer.h"
+#include "capture/reference/path_tracer.h"
 #include "scenes/loader.h"
 
 namespace regather::capture {

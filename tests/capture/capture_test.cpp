@@ -12,7 +12,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "capture/moments.h"
+#include "capture/reference/moments.h"
 #include "spatial/heap_walk.h"
 #include "spatial/photons/nearest.h"
 #include "spatial/walk.h"

@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "capture/moments.h"
 #include "capture/radiance_estimate.h"
+#include "capture/reference/moments.h"
 #include "capture/sampler.h"
 
 namespace regather::capture {

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "capture/bsdf.h"
 #include "capture/capture.h"
-#include "capture/moments.h"
+#include "capture/light/bsdf.h"
+#include "capture/reference/moments.h"
 #include "scenes/loader.h"
 
 namespace regather::capture {

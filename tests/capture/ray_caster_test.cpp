@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "capture/bsdf.h"
+#include "capture/light/bsdf.h"
 #include "capture/nonfinite.h"
 
 namespace regather::capture {

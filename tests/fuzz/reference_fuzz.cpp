@@ -1,5 +1,5 @@
 // Any bytes as the reference.json of a folder with the moments of one black pixel.
-#include "capture/reference.h"
+#include "capture/reference/reference.h"
 
 #include "tests/fuzz/input.h"
 #include "trace/npy.h"

@@ -9,8 +9,8 @@
 #include <bit>
 #include <cmath>
 
+#include "capture/light/surface.h"
 #include "capture/ray_caster.h"
-#include "capture/surface.h"
 #include "capture/view_plane.h"
 #include "tests/capture/irradiance/rectangle_light.h"
 #include "tests/capture/small_scenes.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "capture/moments.h"
+#include "capture/reference/moments.h"
 
 namespace regather::capture {
 namespace {

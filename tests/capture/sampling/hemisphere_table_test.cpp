@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "capture/bsdf.h"
+#include "capture/light/bsdf.h"
 #include "capture/sampler.h"
 #include "study/chi_squared.h"
 #include "trace/error.h"

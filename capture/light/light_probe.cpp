@@ -1,8 +1,8 @@
-#include "capture/light_probe.h"
+#include "capture/light/light_probe.h"
 
 #include <algorithm>
 
-#include "capture/surface.h"
+#include "capture/light/surface.h"
 
 namespace regather::capture {
 

@@ -1,4 +1,4 @@
-#include "capture/light_probe.h"
+#include "capture/light/light_probe.h"
 
 #include <gtest/gtest.h>
 

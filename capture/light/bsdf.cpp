@@ -1,4 +1,4 @@
-#include "capture/bsdf.h"
+#include "capture/light/bsdf.h"
 
 #include <algorithm>
 #include <cmath>

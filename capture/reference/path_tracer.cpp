@@ -1,4 +1,4 @@
-#include "capture/path_tracer.h"
+#include "capture/reference/path_tracer.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -9,9 +9,9 @@
 #include <limits>
 #include <mutex>
 
-#include "capture/bsdf.h"
+#include "capture/light/bsdf.h"
+#include "capture/light/surface.h"
 #include "capture/sampler.h"
-#include "capture/surface.h"
 
 namespace regather::capture {
 namespace {

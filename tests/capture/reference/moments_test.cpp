@@ -1,4 +1,4 @@
-#include "capture/moments.h"
+#include "capture/reference/moments.h"
 
 #include <gtest/gtest.h>
 

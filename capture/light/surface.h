@@ -1,7 +1,7 @@
-// capture/surface.h -- the side of a surface that a ray meets, and where specular surfaces send it on. The
-// photon pass and the eye paths share it: light and importance take the same turns.
+// capture/light/surface.h -- the side of a surface that a ray meets, and where specular surfaces send it on.
+// The photon pass and the eye paths share it: light and importance take the same turns.
 #pragma once
-#include "capture/bsdf.h"
+#include "capture/light/bsdf.h"
 #include "capture/ray_caster.h"
 
 namespace regather::capture {

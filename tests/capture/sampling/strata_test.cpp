@@ -1,5 +1,5 @@
 // The column of strata: where in the unit square a gather ray was drawn from.
-#include "capture/strata.h"
+#include "capture/sampling/strata.h"
 
 #include <gtest/gtest.h>
 

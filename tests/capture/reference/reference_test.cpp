@@ -1,4 +1,4 @@
-#include "capture/reference.h"
+#include "capture/reference/reference.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

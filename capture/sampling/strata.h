@@ -1,4 +1,5 @@
-// capture/strata.h -- stratified samples of the unit square: one in each of so many cells of equal area.
+// capture/sampling/strata.h -- stratified samples of the unit square: one in each of so many cells of equal
+// area.
 #pragma once
 #include <cmath>
 #include <cstdint>

@@ -1,4 +1,5 @@
-// capture/light_probe.h -- what a ray sees of the light that surfaces reflect, as the photon map tells it.
+// capture/light/light_probe.h -- what a ray sees of the light that surfaces reflect, as the photon map tells
+// it.
 #pragma once
 #include "capture/gather_pass.h"
 #include "capture/ray_caster.h"

@@ -1,4 +1,4 @@
-#include "capture/path_tracer.h"
+#include "capture/reference/path_tracer.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

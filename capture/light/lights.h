@@ -1,12 +1,12 @@
-// capture/lights.h -- light leaving the area lights of a scene, and points on them as a surface sees them.
-// Emission: lights in proportion to their power, points evenly over their area, directions with density cos /
-// pi. Direct light: one light in proportion to an estimate from above of what it can send to the point, power
-// / distance^2 with bounds of both cosines (after Conty Estevez & Kulla, "Importance Sampling of Many Lights
-// with Adaptive Tree Splitting", HPG 2018, with two levels in place of a tree), then a point evenly over its
-// area. Up to 64 lights: a look costs one estimate a light, a sample a binary search. More lights are put
-// into about sqrt(lights) groups of neighbours: a look costs one estimate a group, a sample or a density one
-// estimate for each light of one group (10,000 lights: 128 and at most 79; a few microseconds). Lengths in
-// scene units, radiance [W / (m^2 sr)], power [W], densities [1 / m^2].
+// capture/light/lights.h -- light leaving the area lights of a scene, and points on them as a surface sees
+// them. Emission: lights in proportion to their power, points evenly over their area, directions with density
+// cos / pi. Direct light: one light in proportion to an estimate from above of what it can send to the point,
+// power / distance^2 with bounds of both cosines (after Conty Estevez & Kulla, "Importance Sampling of Many
+// Lights with Adaptive Tree Splitting", HPG 2018, with two levels in place of a tree), then a point evenly
+// over its area. Up to 64 lights: a look costs one estimate a light, a sample a binary search. More lights
+// are put into about sqrt(lights) groups of neighbours: a look costs one estimate a group, a sample or a
+// density one estimate for each light of one group (10,000 lights: 128 and at most 79; a few microseconds).
+// Lengths in scene units, radiance [W / (m^2 sr)], power [W], densities [1 / m^2].
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "capture/lights.h"
+#include "capture/light/lights.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
-// capture/reference.h -- a path-traced image that can stop, go on and be measured against: docs/reference.md.
-// On disk it is a folder: the moments of every pixel as a column, and reference.json, which names it and is
-// written last, by an atomic rename. A process killed at any moment leaves the state of the last save
-// readable.
+// capture/reference/reference.h -- a path-traced image that can stop, go on and be measured against:
+// docs/reference.md. On disk it is a folder: the moments of every pixel as a column, and reference.json,
+// which names it and is written last, by an atomic rename. A process killed at any moment leaves the state of
+// the last save readable.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "capture/images/image.h"
-#include "capture/path_tracer.h"
+#include "capture/reference/path_tracer.h"
 
 namespace regather::capture {
 

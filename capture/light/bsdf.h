@@ -1,6 +1,6 @@
-// capture/bsdf.h -- how surfaces scatter light: Lambert, Lambert plus an energy-normalised Blinn-Phong lobe,
-// perfect mirrors, and smooth dielectrics. Directions have unit length and point away from the surface. No
-// result is infinite or not a number for unit vectors, exponents of 1 to 1e6 and indices of 1.0001 to 5:
+// capture/light/bsdf.h -- how surfaces scatter light: Lambert, Lambert plus an energy-normalised Blinn-Phong
+// lobe, perfect mirrors, and smooth dielectrics. Directions have unit length and point away from the surface.
+// No result is infinite or not a number for unit vectors, exponents of 1 to 1e6 and indices of 1.0001 to 5:
 // angles of lobes are taken from sines in double precision, which do not cancel at their peaks.
 #pragma once
 #include "capture/sampler.h"

@@ -1,11 +1,11 @@
-#include "capture/lights.h"
+#include "capture/light/lights.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "capture/bsdf.h"
+#include "capture/light/bsdf.h"
 #include "scenes/tessellation.h"
 
 namespace regather::capture {

@@ -1,5 +1,6 @@
-// capture/moments.h -- mean and spread of samples that come one by one (Welford, "Note on a method for
-// calculating corrected sums of squares and products", 1962): the same bits however they are cut into runs.
+// capture/reference/moments.h -- mean and spread of samples that come one by one (Welford, "Note on a method
+// for calculating corrected sums of squares and products", 1962): the same bits however they are cut into
+// runs.
 #pragma once
 #include <array>
 #include <cstddef>

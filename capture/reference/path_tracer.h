@@ -1,6 +1,6 @@
-// capture/path_tracer.h -- the truth that images are measured against: unidirectional path tracing (Kajiya
-// 1986) on the scene, materials and lights of the photon mapper, with next-event estimation joined to the
-// paths' own hits by multiple importance sampling, power heuristic with exponent 2 (Veach & Guibas 1995).
+// capture/reference/path_tracer.h -- the truth that images are measured against: unidirectional path tracing
+// (Kajiya 1986) on the scene, materials and lights of the photon mapper, with next-event estimation joined to
+// the paths' own hits by multiple importance sampling, power heuristic with exponent 2 (Veach & Guibas 1995).
 // Unbiased: no path is cut by length, no value is clamped; Russian roulette ends paths. Pixels are means over
 // their square (box filter). Radiance [W / (m^2 sr)]. A sample depends on (scene, image size, seed, pixel,
 // number of the sample) alone: not on threads, not on what came before.
@@ -9,10 +9,10 @@
 #include <functional>
 #include <span>
 
-#include "capture/lights.h"
-#include "capture/moments.h"
+#include "capture/light/lights.h"
 #include "capture/nonfinite.h"
 #include "capture/ray_caster.h"
+#include "capture/reference/moments.h"
 #include "capture/view_plane.h"
 
 namespace regather::capture {
