@@ -53,6 +53,9 @@ TEST(OpenSurfaces, BladesDoNotAndGlossIsNotDiffuse) {
     EXPECT_EQ(grass.diffuse, grass.met);
     EXPECT_LE(grass.open, 64u) << "those of the last column at most";
     EXPECT_FALSE(grass.suited());
+    scenes::Scene lying = blades();
+    lying.camera.up = {1, 0, 0};
+    EXPECT_LE(open_surfaces(lying).open, 64u) << "those of the last row at most";
     EXPECT_THAT(grass.text(), testing::HasSubstr("100 % of what the camera sees is diffuse, "));
     scenes::Scene shiny = closed_box(0.5);
     for (scenes::Material& material : shiny.materials) material.kind = scenes::MaterialKind::glossy;

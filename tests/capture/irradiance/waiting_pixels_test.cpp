@@ -68,6 +68,9 @@ TEST(WaitingPixels, PointsComeTileByTile) {
     EXPECT_EQ(rows.records, 4u);
     EXPECT_EQ(rows.waited, 2u);
     EXPECT_EQ(rows.half, 3u);
+    const WaitingPixels single =
+        waiting_pixels(points, octree, whole, {.latency = 4, .entries = 9, .tile = 1});
+    EXPECT_EQ(single.waited, 2u) << "row by row, too";
 }
 
 TEST(WaitingPixels, NoPointsNoWaits) {
