@@ -21,7 +21,9 @@ bool same_picture(const results::ConvergenceRow& a, const results::ConvergenceRo
     return a.scene == b.scene && a.width == b.width && a.height == b.height && a.reference == b.reference;
 }
 
-/// By pictures as they come, then by error; those that no ladder reaches are named and empty.
+constexpr std::size_t most_goals = 3;  // of a picture
+
+/// By pictures as they come; of each the least errors that some ladder reaches, greatest first.
 std::vector<Goal> goals_of(const std::vector<results::Ladder>& all) {
     std::vector<const results::ConvergenceRow*> pictures;
     for (const results::Ladder& ladder : all)
@@ -29,17 +31,21 @@ std::vector<Goal> goals_of(const std::vector<results::Ladder>& all) {
                          [&](const auto* row) { return same_picture(*row, *ladder.rows.front()); }))
             pictures.push_back(ladder.rows.front());
     std::vector<Goal> goals;
-    for (const results::ConvergenceRow* picture : pictures)
-        for (const double percent : {5.0, 2.0, 1.0}) {
-            Goal& goal = goals.emplace_back(Goal{fmt::format("{}, {:g} %", picture->scene, percent), {}});
+    for (const results::ConvergenceRow* picture : pictures) {
+        std::vector<Goal> own;
+        for (const double percent : {50.0, 20.0, 10.0, 5.0, 2.0, 1.0, 0.5}) {
+            Goal goal{fmt::format("{}, {:g} %", picture->scene, percent), {}};
             for (const results::Ladder& ladder : all) {
                 const results::ConvergenceRow& first = *ladder.rows.front();
                 if (!same_picture(first, *picture) || first.mean_radiance.value_or(0) <= 0) continue;
                 if (const auto found = results::seconds_to(ladder, percent / 100 * *first.mean_radiance))
                     goal.seconds.emplace_back(first.ladder, *found);
             }
-            if (goal.seconds.empty()) goal.name += ": reached by none";
+            if (!goal.seconds.empty()) own.push_back(std::move(goal));
         }
+        const std::size_t first = own.size() - std::min(own.size(), most_goals);
+        goals.insert(goals.end(), own.begin() + static_cast<std::ptrdiff_t>(first), own.end());
+    }
     return goals;
 }
 
