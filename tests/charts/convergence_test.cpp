@@ -39,7 +39,7 @@ TEST(Convergence, TimeToErrorHasALineAPictureAndError) {
     ASSERT_EQ(chart.skipped, "");
     const std::string photons = data_of(chart, "$line_0", "photons"),
                       samples = data_of(chart, "$line_0", "samples");
-    EXPECT_THAT(photons, HasSubstr("1 5.26"));  // 50 %: at most
+    EXPECT_THAT(photons, HasSubstr("1 5.26"));  // 20 %: at most
     EXPECT_THAT(photons, HasSubstr("4 3.26\n"));
     EXPECT_THAT(samples, HasSubstr("8 2.26"));     // 5 %: at most
     EXPECT_THAT(samples, HasSubstr("16 1.26\n"));  // half-way to 0.02, in logarithms
