@@ -108,7 +108,7 @@ bool has(Beside trace, const Scene& scene, const CaptureConfig& config);
 /// Where the columns go; null: nowhere.
 struct TraceWriters {
     trace::TraceWriter* global = nullptr;
-    OfBeside<trace::TraceWriter*> beside;
+    OfBeside<trace::TraceWriter*> beside{};
 };
 
 /// Renders, and writes columns; the caller finishes the writers with Captured's info and beside when all else

@@ -34,9 +34,9 @@ std::optional<double> seconds_to(const Ladder& ladder, double error);
 /// How many gather rays `cosine` needs for each of a strategy's, for the same error of what gather rays
 /// bring.
 struct EqualError {
-    const ConvergenceRow* row = nullptr;                ///< Of the strategy.
-    double rays = 0;                                    ///< Variance of cosine over that of the strategy.
-    std::optional<std::pair<double, double>> interval;  ///< 95 %; from three images on.
+    const ConvergenceRow* row = nullptr;                  ///< Of the strategy.
+    double rays = 0;                                      ///< Variance of cosine over that of the strategy.
+    std::optional<std::pair<double, double>> interval{};  ///< 95 %; from three images on.
 };
 
 /// Of each row with a photon_seed (its images differ by gather rays alone) beside which there is one of the

@@ -77,7 +77,7 @@ std::vector<Setting> default_ladder(double diagonal, bool caustics) {
     base.gather_rays = 16;
     base.ladder = "photons";
     add_steps(out, base, {2e3, 1e4, 5e4, 25e4, 125e4}, [](Setting& s, double v) { s.photons = whole(v); });
-    base.ladder = "k";
+    base.ladder = std::string("k");
     add_steps(out, base, {5, 16, 50, 160, 500}, [](Setting& s, double v) { s.k = whole(v); });
     base.ladder = "radius";
     add_steps(out, base, {0.005, 0.01, 0.02, 0.04, 0.08},

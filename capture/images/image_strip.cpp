@@ -135,10 +135,10 @@ Picture image_strip(const Image& image, const Image& reference, const StripText&
 }
 
 void write_strip(const fs::path& path, const Picture& picture) {
-    std::vector<std::uint8_t> rgb;
-    rgb.reserve(3 * picture.pixels.size());
-    for (const auto& pixel : picture.pixels) rgb.insert(rgb.end(), pixel.begin(), pixel.end());
-    write_png(path, picture.width, picture.height, rgb);
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(3 * picture.pixels.size());
+    for (const auto& pixel : picture.pixels) bytes.insert(bytes.end(), pixel.begin(), pixel.end());
+    write_png(path, picture.width, picture.height, bytes);
 }
 
 }  // namespace regather::capture

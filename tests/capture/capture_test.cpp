@@ -50,7 +50,7 @@ std::uint64_t exr_hash(const Image& image) {
     return XXH3_64bits(bytes.data(), bytes.size());
 }
 
-std::vector<std::uint32_t> reversed(const Queries& queries) {
+std::vector<std::uint32_t> order_reversed(const Queries& queries) {
     std::vector<std::uint32_t> order(queries.size());
     std::iota(order.rbegin(), order.rend(), 0u);
     return order;
@@ -77,7 +77,7 @@ TEST(Capture, TheImageAndTheTraceAreTheSameOnAnyNumberOfThreadsAndInAnyOrder) {
         return std::pair(exr_hash(captured.image), trace::TraceReader(scratch / "trace").checksum());
     };
     const auto expected = run({});
-    EXPECT_EQ(run(reversed), expected);
+    EXPECT_EQ(run(order_reversed), expected);
     EXPECT_EQ(run(by_height), expected);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
     EXPECT_EQ(run({}), expected);

@@ -108,7 +108,7 @@ TEST(CausticMap, IsATraceOfItsOwn) {
 // --- what a scene does not need
 // ---------------------------------------------------------------------------------
 
-CaptureConfig small() {
+CaptureConfig small_room() {
     CaptureConfig config;
     config.pixels = {
         .width = 12, .height = 8, .gather_rays = 4, .shadow_rays = 4, .max_specular = 16, .seed = 5};
@@ -126,7 +126,7 @@ struct Kept {
 };
 Kept captured_with(const scenes::Scene& scene, const std::set<std::string>& keep) {
     const Scratch scratch;
-    CaptureConfig config = small();
+    CaptureConfig config = small_room();
     config.keep = keep;
     trace::TraceWriter writer(scratch / "trace", false), caustic(scratch / "caustic", false);
     Kept kept;
@@ -147,7 +147,7 @@ bool is_left_out(const trace::TraceInfo& info, const std::string& what) {
 TEST(Needs, WithoutSpecularSurfacesThereIsNoCausticMapAndKeepingOneChangesNoPixel) {
     const scenes::Scene box = scenes::load_scene("box");
     const Kept without = captured_with(box, {}), with = captured_with(box, {"caustics"});
-    EXPECT_FALSE(has_caustic_map(box, small()));
+    EXPECT_FALSE(has_caustic_map(box, small_room()));
     EXPECT_FALSE(without.captured.beside[Beside::caustic]);
     EXPECT_TRUE(is_left_out(without.info, "caustic map"));
     ASSERT_TRUE(with.captured.beside[Beside::caustic]);
