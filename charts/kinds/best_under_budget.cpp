@@ -73,16 +73,16 @@ Panel panel_of(std::span<const Front> fronts, const Ends& ends, const results::B
 }  // namespace
 
 Chart best_under_budget(const ChartKind& kind, const results::Rows& rows, const ChartOptions& options) {
-    const std::vector<results::Row> shown = results::rows_of_shape(rows.of<results::Row>(), options.cache);
-    if (shown.empty())
+    const std::vector<results::Row> known = results::rows_of_shape(rows.of<results::Row>(), options.cache);
+    if (known.empty())
         return skip(options.cache ? fmt::format("no row has {}", results::shape_text(*options.cache))
                                   : fmt::format("needs {}", kind.needs));
-    if (!results::of_one_setting(shown))
+    if (!results::of_one_setting(known))
         return skip("needs rows of one scene, frame, structure, layout and policy");
     const std::vector<std::uint64_t> budgets = results::budgets();
     const Ends ends{static_cast<double>(budgets.front()), static_cast<double>(budgets.back())};
-    const std::vector<Front> kept = results::fronts(shown, results::Buffers::on_chip),
-                             any = results::fronts(shown, results::Buffers::anywhere);
+    const std::vector<Front> kept = results::fronts(known, results::Buffers::on_chip),
+                             any = results::fronts(known, results::Buffers::anywhere);
 
     std::vector<std::string> orderings;
     std::vector<double> nets;
@@ -106,7 +106,7 @@ Chart best_under_budget(const ChartKind& kind, const results::Rows& rows, const 
         panels.push_back(panel_of(kept, ends, unit, orderings));
         panels.back().remark = "Buffers stay on the chip";
     }
-    if (std::any_of(shown.begin(), shown.end(),
+    if (std::any_of(known.begin(), known.end(),
                     [](const auto& row) { return !results::stays_on_chip(row); })) {
         panels.push_back(panel_of(any, ends, unit, orderings));
         panels.back().remark = "Buffers may go through memory, which is counted";
@@ -118,9 +118,9 @@ Chart best_under_budget(const ChartKind& kind, const results::Rows& rows, const 
         across.ticks.emplace_back(static_cast<double>(budget), budget < 1 << 20
                                                                    ? fmt::format("{}K", budget >> 10)
                                                                    : fmt::format("{}M", budget >> 20));
-    const results::Geometry cache = *results::geometry_of(shown.front());
+    const results::Geometry cache = *results::geometry_of(known.front());
     return draw({std::string(kind.title),
-                 caption(curves(shown, Along::cache, {cache, options.tile, options.bins}),
+                 caption(curves(known, Along::cache, {cache, options.tile, options.bins}),
                          results::shape_text(cache)),
                  {"state kept on the chip, beside the cache [bytes]", across},
                  std::move(panels)});
