@@ -76,13 +76,12 @@ Chart time_to_error(const ChartKind& kind, const results::Rows& rows, const Char
         const double base = static_cast<double>(goals.size() - 1 - g);
         panel.notes.push_back({across.low, base + goal_note, goals[g].name});
         for (const auto& [ladder, seconds] : goals[g].seconds)
-            panel.lines[line_at.at(ladder)].points.push_back(
-                {std::abs(seconds), base + goal_mark, seconds < 0 ? "<" : ""});
+            panel.lines[line_at.at(ladder)].points.push_back({std::abs(seconds), base + goal_mark});
     }
     std::erase_if(panel.lines, [](const Line& line) { return line.points.empty(); });
     return draw({std::string(kind.title),
                  caption(all),
-                 {"seconds an image, with photon pass and tree", across},
+                 {"seconds an image, with photon pass and tree, at most", across},
                  {std::move(panel)}});
 }
 

@@ -158,13 +158,15 @@ std::string capture_into(const fs::path& folder, const scenes::Scene& scene, cap
     const Files files(folder);
     if (!force)
         if (const auto report = kept(folder, files, scene, config)) return *report;
+    capture::OfBeside<bool> wanted;
+    for (const Beside which : all_beside) wanted[which] = capture::has(which, scene, config);
     fs::create_directories(folder);
     trace::TraceWriter writer(files.trace, force);
     // Without the others it is no finished capture.
     capture::OfBeside<std::optional<trace::TraceWriter>> beside;
     capture::TraceWriters writers{&writer, {}};
     for (const Beside which : all_beside) {
-        if (capture::has(which, scene, config))
+        if (wanted[which])
             writers.beside[which] = &beside[which].emplace(files.beside[which], true);
         else
             fs::remove_all(files.beside[which]);

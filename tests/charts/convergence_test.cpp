@@ -39,9 +39,9 @@ TEST(Convergence, TimeToErrorHasALineAPictureAndError) {
     ASSERT_EQ(chart.skipped, "");
     const std::string photons = data_of(chart, "$line_0", "photons"),
                       samples = data_of(chart, "$line_0", "samples");
-    EXPECT_THAT(photons, HasSubstr("1 5.26"));  // 20 %: at most
+    EXPECT_THAT(photons, HasSubstr("1 5.26\n"));  // 20 %: at most
     EXPECT_THAT(photons, HasSubstr("4 3.26\n"));
-    EXPECT_THAT(samples, HasSubstr("8 2.26"));     // 5 %: at most
+    EXPECT_THAT(samples, HasSubstr("8 2.26\n"));   // 5 %: at most
     EXPECT_THAT(samples, HasSubstr("16 1.26\n"));  // half-way to 0.02, in logarithms
     EXPECT_THAT(samples, HasSubstr("32 0.26\n"));
     for (const char* text : {"'box, 20 %'", "'box, 10 %'", "'box, 5 %'", "'den, 1 %'"})

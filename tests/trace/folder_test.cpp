@@ -170,7 +170,9 @@ TEST(TraceFolder, InconsistentJsonIsRefusedByField) {
     refused("\"image_height\": 1", "\"image_height\": 4294967296",
             "image_height: found 4294967296, expected");
     refused("\"k\": 7", "\"k\": 0", "k: found 0, expected a whole number from 1 up");
-    refused("\"global\"", "\"local\"", "map: found \"local\", expected \"global\", \"caustic\" or \"guide\"");
+    refused("\"global\"", "\"local\"",
+            "map: found \"local\", expected \"global\", \"caustic\", \"guide\", "
+            "\"precompute\", \"precomputed\" or \"hits\"");
     refused("\"structure_version\": 1", "\"structure_version\": 0",
             "structure_version: found 0, expected a whole number from 1 up");
     refused("\"uint8\"", "\"uint16\"", "columns.walk.type: found \"uint16\", expected \"uint8\"");
