@@ -21,10 +21,11 @@ file_of() { [ "$1" = apartment ] && echo apartment/scene.json || echo "$1"; }
 ladder() {
     name=$1 seeds=$2
     shift 2
+    cp "$ladders/$name-ladder.csv" .
     for scene in "$@"; do
-        "$regather" converge "$(file_of "$scene")" -o "$name/$scene" --reference "reference/$scene" --ladder "$ladders/$name-ladder.csv" \
+        "$regather" converge "$(file_of "$scene")" -o "$name/$scene" --reference "reference/$scene" --ladder "$name-ladder.csv" \
             --seeds "$seeds" --seconds 10000 > "$name-$scene.txt"
-        for kind in csv json; do cp "$name/$scene/converge.$kind" "results/$name-$scene.$kind"; done
+        for kind in csv json; do sed "s/\"converge.csv\"/\"$name-$scene.csv\"/" "$name/$scene/converge.$kind" > "results/$name-$scene.$kind"; done
         echo "$(date +%T) $name $scene"
     done
 }

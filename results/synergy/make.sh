@@ -47,7 +47,12 @@ for part in $parts; do
             rows frames "$(echo "$view" | tr : -)" "${view%:*}" --frames "${view#*:}" --width 128 --height 128
         done
         python3 "$here/merge.py" frames results/frames.csv ;;
-    charts) ;;
+    charts)
+        for scene in house arena; do
+            { head -1 results/standing.csv; grep "^$scene," results/standing.csv | grep -v ' guide,'; } > "$scene.csv"
+            "$regather" chart "$scene.csv" -o charts --kind traffic-by-technique --cache 128K:128:8 --force > /dev/null
+            mv charts/traffic-by-technique.svg "results/traffic-$scene.svg"
+        done ;;
     *) echo "make.sh: unknown part $part" >&2; exit 2 ;;
     esac
 done
