@@ -206,6 +206,16 @@ std::vector<Curve> curves(std::span<const results::Row> rows, Along along, const
     if (layouts.size() > 1 &&
         std::all_of(layouts.begin(), layouts.end(), [](const auto& of) { return of.second.size() == 1; }))
         differs[layout] = false;
+    // Of a spec the name does, where its parameters are the same everywhere.
+    constexpr std::size_t sampling = 6, irradiance_cache = 7;
+    for (const std::size_t spec : {sampling, irradiance_cache}) {
+        std::map<std::string, std::set<std::string>> texts;
+        const auto name_of = [](const std::string& text) { return text.substr(0, text.find(':')); };
+        for (const Group& group : groups) texts[name_of(group.traits[spec])].insert(group.traits[spec]);
+        for (Group& group : groups)
+            if (std::string name = name_of(group.traits[spec]); texts[name].size() == 1)
+                group.traits[spec] = std::move(name);
+    }
     std::vector<Curve> out;
     for (Group& group : groups) {
         if (group.tiled && along != Along::tile) hold(group.rows, &results::Row::tile, slice.tile);

@@ -96,6 +96,14 @@ TEST(Series, NamesOnlyWhatDiffers) {
     const auto all = curves(layouts, Along::tile, {});
     EXPECT_THAT(labels(all), ElementsAre("Naive, heap-20", "Naive, veb-20"));
     EXPECT_NE(all[0].variant, all[1].variant);
+    std::vector<Row> asked(3, made_row("naive", {}, {}, 1));
+    asked[1].sampling = "combined:rows=4";
+    asked[2].sampling = "incident:rows=4";
+    EXPECT_THAT(labels(curves(asked, Along::tile, {})),
+                ElementsAre("Naive", "Naive, combined", "Naive, incident"));
+    asked[2].sampling = "combined:rows=8";
+    EXPECT_THAT(labels(curves(asked, Along::tile, {})),
+                ElementsAre("Naive", "Naive, combined:rows=4", "Naive, combined:rows=8"));
     // A layout that goes with the structure needs no word.
     layouts[1].structure = "octree";
     EXPECT_THAT(labels(curves(layouts, Along::tile, {})),
