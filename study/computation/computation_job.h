@@ -16,7 +16,7 @@ struct ComputationJob {
     std::vector<std::filesystem::path> traces;  ///< As open_traces(); none: the paper alone.
     std::vector<std::string> settings;          ///< "NAME=VALUE", which stand above all else.
     std::string sampling{};  ///< As sampling_operations(), whose table is told; empty: none. Not with traces.
-    double factor = 2;     ///< That each parameter alone is divided by and multiplied with.
+    double factor = 2;       ///< That each parameter alone is divided by and multiplied with.
 };
 
 struct ComputationResult {
