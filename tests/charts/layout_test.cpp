@@ -60,8 +60,8 @@ TEST(Layout, NoTextOfAnyKindOfChartLiesOnAnother) {
 }
 
 TEST(Layout, NorOverTheRowsOfTheFigures) {
-    for (const char* folder : {"results/figure4", "results/family", "results/converge", "results/sampling",
-                               "results/rays", "results/structures", "results/budget", "results/computation"})
+    for (const char* folder : {"results/figure4", "results/family", "results/sampling", "results/rays",
+                               "results/structures", "results/budget", "results/computation"})
         EXPECT_GT(drawn_without_collisions(folder).size(), 0u) << folder;
 }
 
