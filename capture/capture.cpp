@@ -485,12 +485,9 @@ Captured capture(const Scene& scene, const CaptureConfig& config, const TraceWri
     const auto finish_octree = [&](Beside trace, trace::TraceInfo& info) {
         if (!irradiance || !writers.beside[trace]) return;
         finish_searches(*writers.beside[trace], irradiance->octree(), info);
-        info.scene = scene.name;
-        info.frame = config.frame;
+        describe(info, "global", scene, config);
         info.image_width = config.pixels.width;
         info.image_height = config.pixels.height;
-        info.seed = config.pixels.seed;
-        info.parameters = trace::Json::object({{"capture", parameters(scene, config)}});
         result.beside[trace] = info;
     };
     finish_octree(Beside::irradiance, octree_info);

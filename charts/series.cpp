@@ -210,10 +210,10 @@ std::vector<Curve> curves(std::span<const results::Row> rows, Along along, const
     constexpr std::size_t sampling = 6, irradiance_cache = 7;
     for (const std::size_t spec : {sampling, irradiance_cache}) {
         std::map<std::string, std::set<std::string>> texts;
-        const auto name_of = [](const std::string& text) { return text.substr(0, text.find(':')); };
-        for (const Group& group : groups) texts[name_of(group.traits[spec])].insert(group.traits[spec]);
+        for (const Group& group : groups)
+            texts[results::spec_name(group.traits[spec])].insert(group.traits[spec]);
         for (Group& group : groups)
-            if (std::string name = name_of(group.traits[spec]); texts[name].size() == 1)
+            if (std::string name = results::spec_name(group.traits[spec]); texts[name].size() == 1)
                 group.traits[spec] = std::move(name);
     }
     std::vector<Curve> out;

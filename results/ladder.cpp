@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "results/geometry.h"
+#include "results/parameters.h"
 
 namespace regather::results {
 namespace {
@@ -30,9 +31,8 @@ std::string setting_text(const ConvergenceRow& row) {
                        row.k.value_or(0));
     if (row.radius) out += fmt::format(", r {:.3g}", *row.radius);
     if (row.samples.value_or(1) > 1) out += fmt::format(", s {}", *row.samples);
-    if (!row.sampling.empty()) out += fmt::format(", {}", row.sampling.substr(0, row.sampling.find(':')));
-    if (!row.irradiance_cache.empty())
-        out += fmt::format(", {}", row.irradiance_cache.substr(0, row.irradiance_cache.find(':')));
+    if (!row.sampling.empty()) out += fmt::format(", {}", spec_name(row.sampling));
+    if (!row.irradiance_cache.empty()) out += fmt::format(", {}", spec_name(row.irradiance_cache));
     if (row.precompute_every) out += ", precomputed";
     if (row.reverse_pixels) out += ", reverse";
     return out;
@@ -47,7 +47,7 @@ auto all_but_sampling(const ConvergenceRow& row) {
 }
 
 bool is_cosine(const ConvergenceRow& row) {
-    return row.sampling.substr(0, row.sampling.find(':')) == "cosine";
+    return spec_name(row.sampling) == "cosine";
 }
 
 }  // namespace

@@ -14,4 +14,9 @@ std::string other_parameters(const Row& row);
 /// Nothing where it gives none.
 Count parameter(std::string_view spec, std::string_view name);
 
+/// What stands before the colon of a spec: "hilbert" of "hilbert:tile=16".
+inline std::string spec_name(std::string_view spec) {
+    return std::string(spec.substr(0, spec.find(':')));
+}
+
 }  // namespace regather::results

@@ -10,6 +10,7 @@
 #include "charts/caption.h"
 #include "charts/lettering.h"
 #include "charts/series.h"
+#include "results/parameters.h"
 
 namespace regather::charts {
 namespace {
@@ -33,15 +34,11 @@ struct Place {
     std::vector<results::Row> rows;
 };
 
-std::string short_spec(const std::string& spec) {
-    return spec.substr(0, spec.find(':'));
-}
-
 Whereabouts whereabouts_of(const results::Row& row) {
     return {row.scene,
             row.frame ? fmt::format("frame {}", *row.frame) : "",
-            row.sampling.empty() ? "brdf" : short_spec(row.sampling),
-            row.irradiance_cache.empty() ? "no cache" : short_spec(row.irradiance_cache) + " cache",
+            row.sampling.empty() ? "brdf" : results::spec_name(row.sampling),
+            row.irradiance_cache.empty() ? "no cache" : results::spec_name(row.irradiance_cache) + " cache",
             row.structure,
             row.layout};
 }
