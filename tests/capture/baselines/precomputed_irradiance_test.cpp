@@ -14,6 +14,7 @@
 #include "capture/sampler.h"
 #include "replay/verification.h"
 #include "spatial/photons/nearest_facing.h"
+#include "tests/capture/baselines/furnace.h"
 #include "tests/capture/small_scenes.h"
 #include "tests/scratch.h"
 #include "trace/error.h"
@@ -157,38 +158,18 @@ TEST(LookUp, ReflectsTheIrradianceOfItsOwnSide) {
 // / 10 less.
 TEST(PrecomputedIrradiance, OfAnEvenFurnaceIsTheFurnaces) {
     constexpr std::uint32_t count = 8000, k = 10;
-    std::vector<trace::Photon> photons(count);
-    Sampler sampler(4, Stream::photon, 2);
-    for (trace::Photon& photon : photons) {
-        const float x = sampler.uniform(), y = sampler.uniform();
-        photon.position = {x, y, 0};
-        trace::encode_power(Vec3{1, 1, 1} * (1.0f / count), photon.power);
-        trace::encode_direction({0, 0, -1}, photon);
-        trace::encode_normal({0, 0, 1}, photon);
-    }
-    const double power = static_cast<double>(trace::decode_power(photons[0].power).x) * count;
-    const std::vector<trace::Photon> heap = spatial::left_balanced(photons);
-    Scene white;
-    white.materials = {{.name = "white", .diffuse = {1, 1, 1}}};
-    white.triangle_material = {0};
-    Queries queries;
-    for (int i = 0; i < 3000; ++i) {
-        const float x = sampler.uniform(), y = sampler.uniform();
-        queries.position.push_back({0.1f + 0.8f * x, 0.1f + 0.8f * y, 0});
-        queries.normal.push_back({0, 0, 1});
-        queries.direction.push_back({0, 0, -1});
-        queries.triangle.push_back(0);
-    }
+    const Furnace furnace = even_furnace(4, count, 3000);
+    const Queries& queries = furnace.queries;
     std::vector<std::uint32_t> order(queries.size());
     std::iota(order.begin(), order.end(), 0u);
     for (const std::uint32_t every : {1u, 4u}) {
         Gathered gathered;
-        look_up(white, precompute_irradiance(heap, every, {.k = k}).records, queries, order, {.k = k},
-                gathered);
+        look_up(furnace.white, precompute_irradiance(furnace.heap, every, {.k = k}).records, queries, order,
+                {.k = k}, gathered);
         double mean = 0;
         for (const Vec3 radiance : gathered.radiance) mean += static_cast<double>(radiance.x);
         mean *= std::numbers::pi / static_cast<double>(queries.size());
-        EXPECT_NEAR(mean, power, 4 / std::sqrt(static_cast<double>(count)) + 1 / 256.0) << every;
+        EXPECT_NEAR(mean, furnace.power, 4 / std::sqrt(static_cast<double>(count)) + 1 / 256.0) << every;
     }
 }
 

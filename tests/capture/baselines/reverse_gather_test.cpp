@@ -12,6 +12,7 @@
 #include "capture/sampler.h"
 #include "replay/verification.h"
 #include "replay/walk_store.h"
+#include "tests/capture/baselines/furnace.h"
 #include "tests/capture/counts.h"
 #include "tests/capture/small_scenes.h"
 #include "tests/scratch.h"
@@ -117,40 +118,18 @@ TEST(ReachingPhotons, ReachTheirKthNearestPhotonAndTheRadiusAtMost) {
 // As the furnace of precomputed_irradiance_test.cpp: 1 W on 1 m^2, seen at points far from the edge.
 TEST(ReverseGather, OfAnEvenFurnaceIsTheFurnacesAtAnyK) {
     constexpr std::uint32_t count = 4000;
-    std::vector<trace::Photon> photons(count);
-    Sampler sampler(6, Stream::photon, 2);
-    for (trace::Photon& photon : photons) {
-        const float x = sampler.uniform(), y = sampler.uniform();
-        photon.position = {x, y, 0};
-        trace::encode_power(Vec3{1, 1, 1} * (1.0f / count), photon.power);
-        trace::encode_direction({0, 0, -1}, photon);
-        trace::encode_normal({0, 0, 1}, photon);
-    }
-    const double power = static_cast<double>(trace::decode_power(photons[0].power).x) * count;
-    const std::vector<trace::Photon> heap = spatial::left_balanced(photons);
-    Scene white;
-    white.materials = {{.name = "white", .diffuse = {1, 1, 1}}};
-    white.triangle_material = {0};
-    Queries queries;
-    for (int i = 0; i < 2000; ++i) {
-        const float x = sampler.uniform(), y = sampler.uniform();
-        queries.position.push_back({0.1f + 0.8f * x, 0.1f + 0.8f * y, 0});
-        queries.normal.push_back({0, 0, 1});
-        queries.direction.push_back({0, 0, -1});
-        queries.triangle.push_back(0);
-        queries.pixel.push_back(0);
-    }
+    const Furnace furnace = even_furnace(6, count, 2000);
     for (const std::uint32_t k : {4u, 40u})
         for (const Filter filter : {Filter::none, Filter::cone}) {
             const GatherConfig config{.k = k, .filter = filter};
-            ReverseGather reverse(reaching_photons(heap, config), config, 1);
+            ReverseGather reverse(reaching_photons(furnace.heap, config), config, 1);
             Gathered gathered;
-            reverse.run(white, queries, nullptr, gathered);
+            reverse.run(furnace.white, furnace.queries, nullptr, gathered);
             double mean = 0;
             for (const Vec3 radiance : gathered.radiance) mean += static_cast<double>(radiance.x);
-            mean *= std::numbers::pi / static_cast<double>(queries.size());
+            mean *= std::numbers::pi / static_cast<double>(furnace.queries.size());
             // Of points and of photons, each about 1 / sqrt(count) over the k that a point sees.
-            EXPECT_NEAR(mean, power, 4 * std::sqrt(1.0 / 2000 / k * 2 + 1.0 / count)) << k;
+            EXPECT_NEAR(mean, furnace.power, 4 * std::sqrt(1.0 / 2000 / k * 2 + 1.0 / count)) << k;
         }
 }
 
